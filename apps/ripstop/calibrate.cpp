@@ -30,9 +30,9 @@ struct CalibrateArguments {
 std::string trial_text(const DampingTrial& t) {
   return fmt::format(
       "C_a {:8.4f} N s/m3, peak {:8.2f} N at {:6.2f} ms, unfiltered {:8.1f} N, inflation time {}, misfit "
-      "{:.4f}",
+      "{:.2f} %",
       t.damping, t.peak, 1000 * t.peak_time, t.every_step_peak,
-      t.inflation_time ? fmt::format("{:6.1f} ms", 1000 * *t.inflation_time) : "not reached", t.misfit);
+      t.inflation_time ? fmt::format("{:6.1f} ms", 1000 * *t.inflation_time) : "not reached", 100 * t.misfit);
 }
 
 int calibrate(const CalibrateArguments& options) {
@@ -42,11 +42,11 @@ int calibrate(const CalibrateArguments& options) {
   const LoadSource source = load_source(resolved, options.opening.steady_run);
   const InflationProblem problem = opening_problem(resolved, source, threads_of(options.opening, resolved));
   Progress progress;
-  progress.line(
-      fmt::format("{}: measured peak {:.1f} N{}; dp {:.2f} Pa ({}), {} nodes", resolved.title(), target.peak,
-                  target.inflation_time ? fmt::format(", inflation time {:g} s", *target.inflation_time)
-                                        : ", no inflation time",
-                  problem.pressure, source.text, problem.mesh.node_count()));
+  progress.line(fmt::format(
+      "{}: measured peak {:.1f} N{}; pressure {:.2f} Pa ({}), {} nodes", resolved.title(), target.peak,
+      target.inflation_time ? fmt::format(", inflation time {:g} s", *target.inflation_time)
+                            : ", no measured inflation time",
+      problem.pressure, source.text, problem.mesh.node_count()));
   const DampingResult result =
       run_damping(resolved, source, problem, options.search,
                   [&](const DampingTrial& trial) { progress.line(trial_text(trial)); });

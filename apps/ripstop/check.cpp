@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -41,9 +42,16 @@ std::string text_of(const Json& value) {
 /// Every key with a derived default: its value and origin.
 void print_sources(const CheckResult& result) {
   const Json written = Json::parse(case_json(result.resolved));
+  std::vector<std::string> values;
+  std::size_t key = 28, value = 19;  // widths of the columns
+  for (const Source& source : result.sources) {
+    values.push_back(text_of(written.at(pointer_of(source.key))));
+    key = std::max(key, source.key.size());
+    value = std::max(value, values.back().size());
+  }
   fmt::print("\n");
-  for (const Source& source : result.sources)
-    fmt::print("  {:<28} {:<19} {}\n", source.key, text_of(written.at(pointer_of(source.key))), source.from);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    fmt::print("  {:<{}} {:<{}} {}\n", result.sources[i].key, key, values[i], value, result.sources[i].from);
 }
 
 void print(const Settings& resolved, const CaseSummary& s, std::size_t warnings) {
@@ -59,15 +67,16 @@ void print(const Settings& resolved, const CaseSummary& s, std::size_t warnings)
       fmt::format("{:.4f} kg: cloth {:.4f}, tape {:.4f} ({:.0f} %), lines {:.4f}, riser {:.4f}", s.mass.total,
                   s.mass.cloth, s.mass.tape, 100 * s.mass.tape / s.mass.total, s.mass.lines, s.mass.riser));
   row("nodes",
-      fmt::format("{}, of these {} of cloth ({} requested, {} required to resolve its size)", s.nodes,
+      fmt::format("{}, of these {} of cloth ({} requested, at least {} for a diameter within 1 %)", s.nodes,
                   s.cloth_nodes, resolved.parachute().mesh.cloth_nodes, s.resolved_cloth_nodes));
   row("springs",
       fmt::format("{}, the shortest {:.3g} mm ({})", s.springs, 1000 * s.smallest_spring, s.smallest_part));
   row("stable step", fmt::format("{:.3g} s, limited by {}; the estimate of [NFM] is {:.3g} s",
                                  s.step.stable_step, s.step.part, s.step.printed_step));
-  row("flow domain", fmt::format("{} cells of {:.3g} x {:.3g} x {:.3g} mm, blockage {:.1f} %{}", s.flow_cells,
-                                 1000 * s.flow_spacing.x, 1000 * s.flow_spacing.y, 1000 * s.flow_spacing.z,
-                                 100 * s.blockage, s.of_jet ? " of the nozzle" : ""));
+  row("flow domain",
+      fmt::format("{} cells, {:.3g} x {:.3g} x {:.3g} mm at the canopy, blockage {:.1f} %{}", s.flow_cells,
+                  1000 * s.flow_spacing.x, 1000 * s.flow_spacing.y, 1000 * s.flow_spacing.z, 100 * s.blockage,
+                  s.of_jet ? " of the nozzle" : ""));
   row("memory", fmt::format("about {:.2g} GB for a steady run", 1e-9 * s.memory));
   row("time", fmt::format("about {} on one core for a steady run with the built-in engine; typically 0.5 to "
                           "2 times this estimate",
@@ -81,7 +90,9 @@ void print(const Settings& resolved, const CaseSummary& s, std::size_t warnings)
                     skirt_circumference(resolved.parachute()),
                     stage.line_m / std::numbers::pi / nominal_diameter(resolved.parachute()), stage.cut_s));
   }
-  row("air", fmt::format("{:.4g} m/s, {:.4g} kg/m3", s.air.speed, s.air.density));
+  row("air",
+      fmt::format("{:.4g} m/s, {:.4g} kg/m3{}", s.air.speed, s.air.density,
+                  resolved.payload().mass_kg ? "; initial speed of a steady run with the payload" : ""));
   row("problems", warnings == 0
                       ? "none"
                       : fmt::format("no error, {} warning{} below", warnings, warnings == 1 ? "" : "s"));

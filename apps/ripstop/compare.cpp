@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -37,13 +38,15 @@ struct CompareArguments : SweepOptions {
 };
 
 void print(const RunComparison& c) {
-  fmt::print("{:<44}", "");
-  for (std::size_t i = 0; i < c.runs.size(); ++i) fmt::print(" {:>14}", fmt::format("run {}", i + 1));
+  std::size_t width = 0;
+  for (const ComparedNumber& n : c.numbers) width = std::max(width, in_words(n.key).with_unit().size());
+  fmt::print("{:<{}}", "", width);
+  for (std::size_t i = 0; i < c.runs.size(); ++i) fmt::print(" {:>12}", fmt::format("run {}", i + 1));
   fmt::print(" {:>10}\n", "change");
   for (const ComparedNumber& n : c.numbers) {
-    fmt::print("{:<44}", in_words(n.key).with_unit());
+    fmt::print("{:<{}}", in_words(n.key).with_unit(), width);
     for (const double value : n.values)
-      fmt::print(" {:>14}", std::isnan(value) ? "-" : fmt::format("{:.5g}", value));
+      fmt::print(" {:>12}", std::isnan(value) ? "-" : fmt::format("{:.5g}", value));
     fmt::print(" {:>10}\n", n.difference ? fmt::format("{:+.2f} %", 100 * *n.difference) : "-");
   }
   for (std::size_t i = 0; i < c.runs.size(); ++i)
@@ -57,9 +60,8 @@ void print(const MeasuredLoad& m) {
   row("peak",
       fmt::format("computed {:.1f} N at {:.4g} s, measured {:.1f} N at {:.4g} s ({:+.1f} %)", m.computed_peak,
                   m.computed_peak_time, m.measured_peak, m.measured_peak_time, 100 * m.peak_difference));
-  row("root mean square difference",
-      fmt::format("{:.1f} N over {:.4g} s, {:.1f} % of the measured peak", m.rms_difference, m.overlap,
-                  100 * m.rms_difference / m.measured_peak));
+  row("rms difference", fmt::format("{:.1f} N over {:.4g} s, {:.1f} % of the measured peak", m.rms_difference,
+                                    m.overlap, 100 * m.rms_difference / m.measured_peak));
   row("impulse",
       fmt::format("computed {:.4g} N s, measured {:.4g} N s", m.computed_impulse, m.measured_impulse));
 }
@@ -121,7 +123,7 @@ void print(const Comparison& comparison) {
              comparison.beyond_sum);
   fmt::print("  change of projected area {:+.3f} %, of drag per projected area {:+.3f} %\n",
              100 * comparison.by_projected_area, 100 * comparison.by_drag_per_area);
-  fmt::print("  strain: mean over the springs of each part\n");
+  fmt::print("  shape: change of the profile; lines, tape, cloth: mean strain of the springs of each part\n");
 }
 
 int compare(CompareArguments& options) {
@@ -164,9 +166,8 @@ void add_compare(CLI::App& app, int& status) {
       "         ripstop compare runs/opening --measured load-cell.csv\n"
       "         ripstop compare examples/stratos-iv/case.toml --linear --speed 30");
   add_sweep_options(*command, *options);
-  command
-      ->add_option("others", options->others,
-                   "Folders of further finished runs, if the first argument is a run folder")
+  command->get_option("case")->description("Folder of a finished run, or with --linear a case file (TOML)");
+  command->add_option("others", options->others, "Folders of further finished runs")
       ->check(CLI::ExistingDirectory);
   add_key_number(*command, "--speed", "flow.speed_m_s", options->overrides.speed, "Nominal speed [m/s]");
   CLI::Option* linear =

@@ -84,6 +84,9 @@ void print_result(const CouponResult& r) {
   fmt::print("{:>9} {:>12} {:>9} {:>12}\n", "strain", "load N/m", "width", "corner peak");
   for (const CouponPoint& p : r.pull.points)
     fmt::print("{:>9.4f} {:>12.2f} {:>9.4f} {:>12.3f}\n", p.strain, p.load, p.waist, p.corner_peak);
+  fmt::print(
+      "width: at mid-length over the initial one; corner peak: stress at a clamp corner over that at "
+      "mid-length\n");
 }
 
 int pull(const CouponArguments& options, const Fabric& fabric, ThreadTeam& team) {

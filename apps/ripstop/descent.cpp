@@ -15,6 +15,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/flight/atmosphere.h"
+#include "warnings.h"
 
 namespace ripstop {
 namespace {
@@ -39,8 +40,8 @@ void print_result(const Descent& d) {
              d.known_coefficient ? fmt::format("; Knacke, in descent: {:.2f} to {:.2f}",
                                                d.known_coefficient->at(0), d.known_coefficient->at(1))
                                  : "");
-  fmt::print("{:>10} {:>9} {:>18} {:>22}\n", "height m", "kg/m3", "speed m/s",
-             fmt::format("to {:g} m, s", d.ground));
+  fmt::print("{:>10} {:>9} {:>18} {:>22}\n", "height m", "air kg/m3", "speed m/s",
+             fmt::format("time to {:g} m, s", d.ground));
   for (const DescentRow& row : d.rows)
     fmt::print("{:>10.4g} {:>9.4f} {:>18} {:>22}\n", row.height, row.density,
                fmt::format("{:.3f} +- {:.3f}", row.speed, row.speed_uncertainty),
@@ -56,7 +57,7 @@ int descent(const DescentArguments& options) {
     fmt::print("{}", to_json(result));
   else
     print_result(result);
-  for (const std::string& warning : result.warnings) fmt::print(stderr, "ripstop: {}\n", warning);
+  print_warnings(result.warnings);
   return 0;
 }
 

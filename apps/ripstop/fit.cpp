@@ -33,18 +33,19 @@ struct FitArguments {
   int threads = 0;
 };
 
-void print_directions(const MaterialFit& fit) {
+void print_directions(const MaterialFit& fit, double confidence) {
   for (const DirectionFit& d : fit.directions) {
-    fmt::print("\n{}: {} samples, up to strain {:.4g}, R2 {:.4f} (all points {:.4f}), degree {}\n", d.name,
-               d.samples.size(), d.fit.tested_strain, d.fit.r2, d.fit.r2_all, d.fit.degree);
+    fmt::print(
+        "\n{}: {} samples, up to strain {:.4g}, R2 {:.4f} of the mean ({:.4f} of all points), degree {}\n",
+        d.name, d.samples.size(), d.fit.tested_strain, d.fit.r2, d.fit.r2_all, d.fit.degree);
     for (const CleanRecord& sample : d.samples) {
       fmt::print("  {}: fails at strain {:.4g} with {:.5g} {}\n", sample.name, sample.failure_strain,
                  sample.failure_load, load_unit(d));
       for (const std::string& text : sample.trimmed) fmt::print("    {}\n", text);
     }
-    fmt::print("  K_0 {}\n", interval_text(d.fit.offset));
+    fmt::print("  K_0 {}\n", interval_text(d.fit.offset, load_unit(d), confidence));
     for (std::size_t k = 0; k < d.fit.k.size(); ++k)
-      fmt::print("  K_{} {}\n", k + 1, interval_text(d.fit.k[k]));
+      fmt::print("  K_{} {}\n", k + 1, interval_text(d.fit.k[k], load_unit(d), confidence));
   }
 }
 
@@ -68,13 +69,14 @@ void print_permeability(const MaterialFit& fit) {
 void print_fit(const FitResult& result) {
   const auto& [bench, fit, coupons] = result;
   for (const std::string& line : fit.understood) fmt::print("{}\n", line);
-  print_directions(fit);
+  print_directions(fit, bench.confidence);
   print_permeability(fit);
   if (coupons) {
-    fmt::print("\nxi {:.4f}{}, eps {:.4f}, coefficients multiplied by {:.5f}\n",
+    fmt::print("\nxi {:.4f}{}, eps {:.4f}; coefficients multiplied by {:.5f} for the clamps\n",
                coupons->fabric.shear_fraction,
                std::isfinite(coupons->shear_low)
-                   ? fmt::format(" ({:.4f} .. {:.4f})", coupons->shear_low, coupons->shear_high)
+                   ? fmt::format(" ({:.0f} % interval {:.4f} to {:.4f})", 100 * bench.confidence,
+                                 coupons->shear_low, coupons->shear_high)
                    : "",
                coupons->fabric.bending_fraction, coupons->rescale);
     print_coupons(coupons->coupons);
@@ -120,7 +122,8 @@ void add_fit(CLI::App& app, int& status) {
   auto options = std::make_shared<FitArguments>();
   CLI::App* command = app.add_subcommand("fit", "Fit a material file to tensile test records");
   command->footer("Example: ripstop fit examples/fit-ripstop/bench.toml --out my-cloth");
-  command->add_option("bench", options->bench, "Test campaign (TOML): records, mass, thickness")->required();
+  command->add_option("bench", options->bench, "Test campaign (TOML): records, mass per area, thickness")
+      ->required();
   command->add_option("--out", options->out, "Folder for the material and its plots; default: runs/<name>");
   add_number(*command, "--degree", options->degree, from(1).up_to(8),
              "Degree of the curves (default: degree_rule of the campaign)");

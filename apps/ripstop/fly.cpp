@@ -40,7 +40,7 @@ std::string with_error(std::optional<double> value, std::optional<double> error,
 }
 
 void print_flight(const FlightResult& r, const fs::path& folder, double wall_time) {
-  const auto row = [](const char* name, const std::string& text) { fmt::print("  {:<28} {}\n", name, text); };
+  const auto row = [](const char* name, const std::string& text) { fmt::print("  {:<26} {}\n", name, text); };
   fmt::print("\n{}\n", r.title);
   print_margins(r.margins);
   if (const auto& h = r.handover) {
@@ -72,8 +72,8 @@ void print_flight(const FlightResult& r, const fs::path& folder, double wall_tim
   row("path", fmt::format("{:.1f} m down, {:.1f} m over the ground", r.height_lost, r.distance));
   row("balance", fmt::format("energy {:.3f} % of the potential energy lost, momentum {:.3f} % of the weight",
                              100 * r.energy_residual, 100 * r.momentum_residual));
-  row("files", fmt::format("{} (path.csv, path.png, angle.png, canopy.pvd, result.json); {}", folder.string(),
-                           duration_text(wall_time)));
+  row("files", fmt::format("{} (path.csv, path.png, angle.png, canopy.pvd, result.json); elapsed {}",
+                           folder.string(), duration_text(wall_time)));
 }
 
 std::string remaining_text(std::chrono::steady_clock::time_point begin, double done, double whole) {
@@ -161,7 +161,7 @@ int fly(const FlyArguments& options) {
   if (!result) {
     const std::string finished = *finished_result(folder);
     fmt::print("{}", finished);
-    fmt::print(stderr, "{} has the finished flight; --fresh computes it again\n", folder.string());
+    fmt::print(stderr, "{} contains the finished run; use --fresh to compute it again\n", folder.string());
     const auto json = nlohmann::json::parse(finished);
     return print_result_warnings(json.at("warnings").get<std::vector<std::string>>(),
                                  json.at("usable").get<bool>());

@@ -77,9 +77,10 @@ void print_start(const Opening& solver, const InflationState& state, const LoadS
         "to keep the time step\n",
         100 * limit.reduced_cells, limit.least_share);
   fmt::print(
-      "nodes {}, time step {:.3e} s (stability limit {:.3e} s), {} threads; {} about {} on one thread\n",
+      "nodes {}, time step {:.3e} s (stability limit {:.3e} s), {} thread{}; {} about {} on one thread\n",
       solver.mesh().node_count(), state.step, state.step / solver.problem().settings.step_fraction,
-      solver.threads(), solver.air() ? "cloth and air take" : "the cloth alone takes",
+      solver.threads(), solver.threads() == 1 ? "" : "s",
+      solver.air() ? "cloth and air take" : "the cloth alone takes",
       duration_text(opening_seconds(solver, state)));
 }
 
@@ -183,9 +184,9 @@ void print_result(const InflationResult& r, const fs::path& folder, double wall_
                                     r.stages ? " + cut" : "", 100 * r.energy_residual));
   if (r.settings.contact_pa > 0)
     row("contact of cloth",
-        fmt::format("compressed by {:.0f} % at most; {:.2f} % of the edges pierced the cloth",
+        fmt::format("distance of layers reduced by at most {:.0f} %; {:.2f} % of the edges pierced the cloth",
                     100 * r.contact_depth, 100 * r.pierced));
-  row("files", fmt::format("{} (load.png, shapes.png, history.csv, canopy.pvd, result.json); {}",
+  row("files", fmt::format("{} (load.png, shapes.png, history.csv, canopy.pvd, result.json); elapsed {}",
                            folder.string(), duration_text(wall_time)));
   if (fs::exists(folder / report_name)) row("report", (folder / report_name).string());
 }

@@ -46,13 +46,14 @@ ReefedStage parse_stage(const std::string& text) {
   return stage;
 }
 
-void print_stage(const StageLoads& s) {
+/// The caution is printed where it differs from that of the stage before.
+void print_stage(const StageLoads& s, const std::string& known_caution) {
   fmt::print(
-      "\nat {:.2f} s: {:.3g} m/s, {:.4g} m, drag area {:.3g} to {:.3g} m2, filling {:.3g} s (n = {:.3g}), "
-      "A = {:.3g}, R_m = {:.3g}\n",
+      "\nat {:.2f} s: {:.3g} m/s, {:.4g} m above sea level, drag area {:.3g} to {:.3g} m2\n"
+      "  filling {:.3g} s (n = {:.3g}), ballistic parameter {:.3g}, mass ratio {:.3g}\n",
       s.begin, s.speed, s.height, s.drag_area_before, s.drag_area, s.filling_time, s.filling_constant,
       s.ballistic_parameter, s.mass_ratio);
-  fmt::print("  {:<18} {:>10} {:>8}  {:<8} {}\n", "method", "load N", "at s", "applies", "reason");
+  fmt::print("  {:<18} {:>10} {:>8}  {:<8} {}\n", "method", "load N", "time s", "applies", "reason");
   std::vector<std::string> notes;  // each is printed once, below the table
   for (const MethodLoad& m : s.methods) {
     const auto known = std::find(notes.begin(), notes.end(), m.note);
@@ -62,26 +63,35 @@ void print_stage(const StageLoads& s) {
                m.time > 0 ? fmt::format("{:.3f}", m.time) : "-", m.applies ? "yes" : "no", reason);
   }
   for (std::size_t i = 0; i < notes.size(); ++i) fmt::print("  ({}) {}\n", i + 1, notes[i]);
-  if (!s.caution.empty()) fmt::print("  filling: {}\n", s.caution);
-  if (std::any_of(s.methods.begin(), s.methods.end(), [](const MethodLoad& m) { return m.applies; }))
+  if (!s.caution.empty() && s.caution != known_caution) fmt::print("  filling: {}\n", s.caution);
+  const auto applicable =
+      std::count_if(s.methods.begin(), s.methods.end(), [](const MethodLoad& m) { return m.applies; });
+  if (applicable > 1)
     fmt::print("  applicable methods: {:.1f} to {:.1f} N, spread {:.0f} %\n", s.lowest, s.highest,
                100 * s.spread);
+  else if (applicable == 1)
+    fmt::print("  one applicable method: {:.1f} N\n", s.lowest);
   else
-    fmt::print("  no method is applicable; the infinite-mass load is an upper bound\n");
+    fmt::print("  no method is applicable; the infinite-mass load is an upper bound on a horizontal path\n");
 }
 
 void print_result(const LoadResult& r, const fs::path& folder) {
   fmt::print("{}\n  payload {:.4g} kg, parachute {:.3g} kg, S0 {:.4g} m2\n", r.title, r.payload_mass,
              r.parachute_mass, r.reference_area);
   fmt::print(
-      "  C_D {:.3f}: {}\n  C_x {:.2f}: {}\n  filling distance {:.3g} D0, exponent of the drag area {:g}, "
-      "Ludtke's {:g}: {}\n",
+      "  C_D {:.3f}: {}\n  C_x {:.2f}: {}\n  filling distance {:.3g} D0, exponent of the drag area over time "
+      "{:g} "
+      "(Ludtke: {:g}): {}\n",
       r.drag_coefficient, r.drag_source, r.opening_coefficient, r.opening_source, r.filling_constant,
       r.filling_exponent, r.ludtke_exponent, r.filling_source);
   fmt::print("  DESIGN LOAD {:.1f} N: {}; largest line load {:.2f} times the mean\n", r.design_load,
              r.design_load_from, r.line_load_factor);
   print_margins(r.margins);
-  for (const StageLoads& stage : r.stages) print_stage(stage);
+  std::string caution;
+  for (const StageLoads& stage : r.stages) {
+    print_stage(stage, caution);
+    caution = stage.caution;
+  }
   fmt::print("\npeak load of the trajectory {:.1f} N after {:.3f} s\n", r.peak_load, r.peak_time);
   if (r.snatch)
     fmt::print("snatch load {:.1f} N (speed difference {:.3g} m/s), {:.1f} N per line{}\n", r.snatch->load,
@@ -90,7 +100,7 @@ void print_result(const LoadResult& r, const fs::path& folder) {
                    ? fmt::format(", breaking load / snatch load {:.2f}", *r.snatch->line_margin)
                    : "");
   if (r.steady_reached)
-    fmt::print("steady descent at {:.3g} m/s after {:.2f} s and {:.3g} m\n", r.steady_speed, r.steady_time,
+    fmt::print("steady descent at {:.3g} m/s after {:.2f} s and {:.4g} m\n", r.steady_speed, r.steady_time,
                r.steady_drop);
   else
     fmt::print("steady descent is NOT reached above the ground: {:.3g} m/s at impact after {:.2f} s\n",
@@ -175,9 +185,9 @@ void add_load(CLI::App& app, int& status) {
   add_number(*command, "--angle", options->request.path_angle, from(-90).up_to(90),
              "Angle of the flight path below the horizon [deg] (default: 90)");
   command
-      ->add_option(
-          "--reef", options->reefing,
-          "Reefed stage SHARE:SECONDS: share of the full drag area and duration; repeatable, in order")
+      ->add_option("--reef", options->reefing,
+                   "Reefed stage SHARE:SECONDS: fraction of the full drag area (0 to 1) and duration; "
+                   "repeatable, in order")
       ->expected(1)
       ->take_all();
   add_coefficients(*command, options->request);

@@ -111,7 +111,8 @@ int run(int argc, char** argv) {
   app.footer(
       "Exit codes: 0 done, 2 usage or case file, 3 bad input data, 4 not converged, 5 diverged,\n"
       "6 external solver, 7 input/output, 8 not enough memory or threads, 70 internal error,\n"
-      "128 + N ended by signal N. Each command has its own --help with an example.");
+      "128 + N ended by signal N. Each command has its own --help with an example.\n"
+      "[NFM] and other sources: docs/references.bib.");
   int status = 0;
   add_check(app, status);
   add_schema(app, status);

@@ -25,15 +25,17 @@ void print_margins(const std::optional<Margins>& margins) {
   if (!margins) return;
   std::string text;
   for (const Margin& m : weakest_of_kinds(*margins))
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", m.member,
-                        m.used ? fmt::format("{:.1f} %", 100 * *m.used) : "strength not known");
-  row("load / allowable", text);
+    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", m.member,
+                        m.used       ? fmt::format("{:.1f} %", 100 * *m.used)
+                        : m.strength ? std::string("no load")
+                                     : std::string("strength not known"));
+  row("utilisation", text);
   if (!margins->weakest.empty()) {
     const Margin& m = *weakest(*margins);
     row("weakest member",
         fmt::format(
-            "{}: load {:.4g} {}, strength {:.4g}, {:.0f} % of it allowable; margin of safety {:+.2f}{}",
-            m.member, m.load, m.unit, *m.strength, 100 * m.knock_down, *m.margin,
+            "{}: load {:.4g} {}, strength {:.4g} {}, {:.0f} % of it allowable; margin of safety {:+.2f}{}",
+            m.member, m.load, m.unit, *m.strength, m.unit, 100 * m.knock_down, *m.margin,
             *m.margin < 0 ? ": ALLOWABLE LOAD EXCEEDED" : ""));
   }
 }

@@ -34,7 +34,8 @@ double parsed(const std::string& option, const std::string& text, const std::str
 
 double in_range(const std::string& option, const std::string& text, Range range, const std::string& unit) {
   const double value = parsed(option, text, unit);
-  if (!range.contains(value)) refuse(option, text, "must be " + range.text());
+  if (!range.contains(value))
+    refuse(option, text, fmt::format("must be {}{}{}", range.text(), unit.empty() ? "" : " ", unit));
   return value;
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -28,14 +29,19 @@ struct PatternArguments {
 };
 
 void print_bill(const Bill& bill) {
-  fmt::print("{:<24} {:<22} {:>5} {:>14} {:>14} {:>10}\n", "part", "material", "count", "finished", "cut",
-             "mass");
+  std::size_t part = 21, material = 8;  // of the last line and of the headings
+  for (const BillRow& row : bill.rows) {
+    part = std::max(part, row.part.size());
+    material = std::max(material, row.material.size());
+  }
+  fmt::print("{:<{}} {:<{}} {:>5} {:>11} {:>11} {:>9}\n", "part", part, "material", material, "count",
+             "finished", "cut", "mass");
   for (const BillRow& row : bill.rows) {
     const char* unit = row.is_cloth ? "m2" : "m ";
-    fmt::print("{:<24} {:<22} {:>5} {:>11.3f} {} {:>11.3f} {} {:>8.1f} g\n", row.part, row.material,
-               row.count, row.finished, unit, row.cut, unit, 1000 * row.mass);
+    fmt::print("{:<{}} {:<{}} {:>5} {:>8.3f} {} {:>8.3f} {} {:>7.1f} g\n", row.part, part, row.material,
+               material, row.count, row.finished, unit, row.cut, unit, 1000 * row.mass);
   }
-  fmt::print("{:<24} {:>67.1f} g\n", "total, without thread", 1000 * bill.mass);
+  fmt::print("{:<{}} {:>7.1f} g\n", "total, without thread", part + material + 32, 1000 * bill.mass);
 }
 
 int run(const PatternArguments& options) {
@@ -52,7 +58,7 @@ int run(const PatternArguments& options) {
     return 0;
   }
   print_bill(result.bill);
-  fmt::print("packed volume at {:.0f} kg/m3: {:.3f} l\n", result.packing_density,
+  fmt::print("packed volume at {:.0f} kg/m3: {:.3f} litres\n", result.packing_density,
              1000 * result.bill.packed_volume);
   fmt::print("S0 {:.4f} m2, cloth {:.4f} m2 finished\n", result.nominal_area, result.cloth_area);
   fmt::print("outlines: {} as DXF (in {}), SVG{}, bill.csv and result.json in {}\n",

@@ -52,7 +52,7 @@ void print_result(const SizeResult& r, const fs::path& file, const fs::path& pag
                                                         : std::string("not flown")));
   row("nominal diameter",
       fmt::format("{:.3f} m{}, S0 {:.4g} m2", r.nominal_diameter,
-                  r.handbook_diameter ? fmt::format(" ({:.2f} to {:.2f} by the handbook)",
+                  r.handbook_diameter ? fmt::format(" ({:.2f} to {:.2f} m by the handbook)",
                                                     r.handbook_diameter->at(1), r.handbook_diameter->at(0))
                                       : "",
                   r.nominal_area));
@@ -65,11 +65,11 @@ void print_result(const SizeResult& r, const fs::path& file, const fs::path& pag
                           r.cloth_mass, r.tape_mass, r.line_mass));
   row("packed volume", fmt::format("{:.3g} litres", 1000 * r.packed_volume));
   row("DESIGN LOAD", fmt::format("{:.0f} N at {:.3g} m/s: {}; largest line load {:.2f} times the mean, "
-                                 "{:.0f} % of the allowable load",
+                                 "utilisation {:.0f} %",
                                  r.design_load, r.deployment_speed, r.design_load_from, r.line_load_factor,
                                  100 * r.line_used));
   row("applicable methods",
-      fmt::format("{:.0f} to {:.0f} N (ripstop load)", r.opening_load_low, r.opening_load));
+      fmt::format("opening load {:.0f} to {:.0f} N (ripstop load)", r.opening_load_low, r.opening_load));
   if (!r.opening.front().caution.empty()) row("", r.opening.front().caution);
   print_margins(r.margins);
   for (const SizeCheck& c : r.checks)
@@ -186,7 +186,7 @@ void add_size(CLI::App& app, int& status) {
   add_number(*command, "--descent-rate", r.descent_rate, key_range("flow.speed_m_s"),
              "Required descent rate [m/s]")
       ->required();
-  command->add_option("--family", r.family, "Canopy family, a folder of examples/ (default: flat-circular)");
+  command->add_option("--family", r.family, "Canopy family: name of its example (default: flat-circular)");
   auto* height = add_number(*command, "--height", r.height, from(lowest_height).up_to(highest_height),
                             "Height above sea level at which this rate is required [m] (default: 0)");
   add_number(*command, "--density", r.density, key_range("flow.density_kg_m3"),

@@ -131,7 +131,7 @@ int finish(const StabilityArguments& options, const StabilityResult& result,
   else
     print_result(result, options.settings.run.folder);
   std::fflush(stdout);
-  for (const std::string& warning : result.warnings) fmt::print(stderr, "ripstop: {}\n", warning);
+  print_warnings(result.warnings);
   if (!missing.empty())
     throw Error(ExitCode::io,
                 fmt::format("{}: not there yet; submit again, or repeat ripstop stability without "
@@ -194,11 +194,11 @@ void add_stability(CLI::App& app, int& status) {
              "Cells of the flow over the projected diameter (default: 16)");
   command->add_option(
       "--steady", options->settings.steady,
-      "Folder of a finished steady run of the same parachute, speed and density, whose shape is "
-      "taken (default: computed in OUT/axis)");
+      "Folder of a finished steady run of the same parachute, speed and density, which provides the "
+      "shape (default: a run computed in OUT/axis)");
   command->add_flag("--equilibrium", options->settings.equilibrium,
                     "The canopy deforms under the mean load of each angle, restrained at vent and confluence "
-                    "(default: rigid, with the shape on the axis)");
+                    "(default: rigid, with the shape of the steady run on the axis)");
   add_case_options(*command, options->overrides);
   add_flow_options(*command, options->overrides);
   command->add_flag("--cold", options->cold, "Start the flow of every angle from the uniform stream");

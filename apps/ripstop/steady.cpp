@@ -104,7 +104,7 @@ void print_result(const SteadyResult& r, const Settings& resolved, const fs::pat
   } else if (r.last.flow_averaged > 0)
     row("flow", fmt::format("did not converge: mean of the last {} iterations, drag {:.2f} +- {:.2f} N",
                             r.last.flow_averaged, r.last.fluid_force, r.last.drag_deviation));
-  row("coupling", fmt::format("{} iterations, {}, {}", r.iterations,
+  row("coupling", fmt::format("{} iterations, {}, elapsed {}", r.iterations,
                               r.converged ? "converged" : "NOT converged", duration_text(r.wall_time)));
   row("files", fmt::format("{} (canopy.png, canopy.pvd, {}, result.json)", folder.string(),
                            flow_grid(resolved.flow()).uniform() ? "flow.vti" : "flow.vtr"));
@@ -119,10 +119,12 @@ int dry_run(const SteadyFolderSettings& settings, const Settings& resolved) {
   // Only the estimate of the built-in engine is reliable, and the length of an unsteady run is not known in
   // advance.
   const bool known = engine_of(resolved).word == engines().front().word && !resolved.flow().unsteady;
-  fmt::print("{}: {} nodes, {} x {} x {} cells, {:.4g} m/s, {} ranks, about {:.2g} GB{}; would run in {}\n",
+  fmt::print("{}: {} nodes, {} x {} x {} cells, {:.4g} m/s{}, about {:.2g} GB{}; would run in {}\n",
              resolved.title(), problem.mesh.node_count(), problem.flow.grid.nx, problem.flow.grid.ny,
-             problem.flow.grid.nz, problem.flow.air.speed(), resolved.flow().ranks, 1e-9 * cost.memory,
-             known ? fmt::format(" and {} on one core", rough_duration(cost.time)) : "", folder.string());
+             problem.flow.grid.nz, problem.flow.air.speed(),
+             resolved.flow().ranks > 1 ? fmt::format(", {} ranks", resolved.flow().ranks) : "",
+             1e-9 * cost.memory, known ? fmt::format(" and {} on one core", rough_duration(cost.time)) : "",
+             folder.string());
   return 0;
 }
 

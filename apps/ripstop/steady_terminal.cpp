@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "ripstop/case/resolve.h"
 
@@ -43,14 +44,18 @@ std::string progress_text(const SteadyProgress& p, double elapsed, double left) 
                      p.flow.drag, time);
 }
 
-/// The members of an iteration that are shown, one under the other.
+/// Headings of the shown members of an iteration, on two lines.
 std::string iteration_header() {
-  std::string text;
+  std::string upper, lower;
+  const auto add = [&](const Shown& how) {
+    const std::string_view text = how.heading;
+    const std::size_t bar = text.find('|');
+    upper += fmt::format("{:>{}} ", text.substr(0, bar), how.width);
+    lower += fmt::format("{:>{}} ", text.substr(bar + 1), how.width);
+  };
   const SteadyIteration none;
-  each_member(none, [&](const char*, const auto&, auto... how) {
-    ((text += fmt::format("{:>{}} ", how.heading, how.width)), ...);
-  });
-  return text;
+  each_member(none, [&](const char*, const auto&, auto... how) { (add(how), ...); });
+  return upper + "\n" + lower;
 }
 
 std::string shown(double value, const Shown& how) {

@@ -167,7 +167,7 @@ void add_sweep(CLI::App& app, int& status) {
       ->expected(1)
       ->take_all();
   command->add_flag("--linear", options->overrides.linear,
-                    "Use only K_1 of every material (linear model of [NFM])");
+                    "Linear material model: only the stiffness coefficient K_1 of every material");
   command->add_option("--out", options->settings.folder, "Folder (default: runs/<name of the case>-sweep)");
   CLI::Option* dry_run =
       command->add_flag("--dry-run", options->dry_run, "Print the runs that would be computed, and stop");

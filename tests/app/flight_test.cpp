@@ -117,6 +117,18 @@ TEST_F(FlightCommands, BadInputIsRefusedWithItsReasonAndLeavesNoFile) {
   EXPECT_FALSE(fs::exists(in("load")));
 }
 
+TEST_F(FlightCommands, AnEmptyDeploymentFoldsGoresAndACross) {
+  EXPECT_EQ(run({"inflate", flat_, "--air", "coupled", "--check", "--set", "deployment={}", "--set",
+                 "parachute.mesh.cloth_nodes=1500", "--set", "flow.cells=[24,24,32]", "--threads", "1"}),
+            0)
+      << said();
+  EXPECT_NE(printed().find("folded start: 36 folds"), std::string::npos) << printed();
+  EXPECT_EQ(run({"inflate", RIPSTOP_SOURCE_DIR "/examples/cross/case.toml", "--air", "coupled", "--check",
+                 "--set", "deployment={}", "--set", "flow.cells=[24,24,32]", "--threads", "1"}),
+            0)
+      << said();
+}
+
 // One iteration of a coarse run is not a finished drag: nothing may be made of it.
 TEST_F(FlightCommands, ARunThatDidNotConvergeCarriesNoFlight) {
   EXPECT_EQ(run({"steady", flat_, "--grid", "16,16,24", "--set", "parachute.mesh.cloth_nodes=500", "--set",

@@ -12,6 +12,8 @@
 #include "ripstop/core/checked_int.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/units.h"
+#include "ripstop/parachute/cross.h"
+#include "ripstop/parachute/fold.h"
 
 namespace ripstop {
 namespace {
@@ -21,7 +23,7 @@ constexpr double bag_share = 0.1, wrap_share = 0.03, pilot_share = 0.05;  // of 
 constexpr double pilot_area = 0.015;                                      // of S0
 constexpr double longest_packed_share = 0.9;                              // of the canopy's length
 constexpr double closed_mouth = 0.04;                                     // radius over D0
-constexpr double above_smallest_radius = 1.12;  // of the folds, whose inner edges would meet on the axis
+constexpr double above_smallest_radius = 1.12;                            // of the folded skirt
 
 double canopy_length(const Design& design) {
   return 0.5 * nominal_diameter(design);
@@ -71,20 +73,40 @@ void check_length(const DeploymentKeys& keys, const Design& design) {
   if (*keys.length_m > canopy) refuse("nine tenths of the canopy's length from skirt to vent", canopy);
 }
 
+// The smallest mean radius of the folded skirt [m], with C its circumference and N the number of folds. A strip of
+// width C / (2 N) reaches from the inner to the outer folds. The inner ones of gores are at least at the radius
+// s C / (2 pi) with s = least_inner_share, those of disks and cylinders on the axis: C (1 / (4 N) + s / (2 pi)).
+// A cross folds along the middle of its arms, of width W. Of m lines from corner to corner of an arm, the outermost are
+// at W / 2 from the fold, and the innermost on it (m odd) or at W / (2 (m - 1)).
+double inner_radius(const Design& design) {
+  const bool gores = design.canopy.family().type != std::string_view("disk-gap-band");
+  return gores ? least_inner_share * skirt_circumference(design) / (2 * std::numbers::pi) : 0;
+}
+
+double smallest_radius(const Design& design, int folds) {
+  if (const Cross* cross = design.canopy.as<Cross>()) {
+    const int per_arm = design.lines.count / 4;
+    const double innermost = per_arm % 2 == 1 ? 0 : cross->arm_width_m / (2 * std::max(1, per_arm - 1));
+    return 0.5 * (0.5 * cross->arm_width_m + innermost);
+  }
+  return inner_radius(design) + skirt_circumference(design) / (4.0 * folds);
+}
+
 }  // namespace
 
-// Folds of one strip each reach from the axis to the strip's width; their mean radius is half of it.
 void close_mouth(const Design& design, InflationSettings& inflation) {
   const double wanted = closed_mouth * nominal_diameter(design), round = skirt_circumference(design);
-  const bool sheet = design.canopy.family().type == std::string_view("cross");  // has four folds
   const int lines = design.lines.count;
-  if (inflation.folds == 0 && !inflation.initial_radius_m && !sheet)
-    inflation.folds =
-        lines * std::max(1, checked_int(std::ceil(above_smallest_radius * round / (4 * wanted * lines)), 1,
-                                        1000, [] { return std::string("folds of a closed mouth"); }));
-  const double smallest = round / (4.0 * (inflation.folds > 0 ? inflation.folds : lines));
+  if (inflation.folds == 0 && !inflation.initial_radius_m && !design.canopy.as<Cross>()) {
+    // Half the width of a strip.
+    const double half = std::max(wanted / above_smallest_radius - inner_radius(design), 0.1 * wanted);
+    inflation.folds = lines * std::max(1, checked_int(std::ceil(round / (4 * half * lines)), 1, 1000,
+                                                      [] { return std::string("folds of a closed mouth"); }));
+  }
   if (!inflation.initial_radius_m)
-    inflation.initial_radius_m = std::max(wanted, above_smallest_radius * smallest);
+    inflation.initial_radius_m =
+        std::max(wanted, above_smallest_radius *
+                             smallest_radius(design, inflation.folds > 0 ? inflation.folds : lines));
 }
 
 PackedParachute packed_parachute(const Settings& resolved) {

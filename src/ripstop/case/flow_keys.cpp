@@ -291,7 +291,8 @@ void describe(Fields& fields, CouplingKeys& coupling) {
       "Convergence acceleration of the coupling iterations.");
   fields.number("cloth_tolerance", coupling.cloth_tolerance, above(0).up_to(0.1),
                 "Ratio of residual to applied force below which the cloth is in equilibrium.");
-  fields.toggle("linear", coupling.linear, "Use only K_1 of every material (linear model of [NFM]).");
+  fields.toggle("linear", coupling.linear,
+                "Linear material model: only the stiffness coefficient K_1 of every material.");
   fields.integer("threads", coupling.threads, from(0).up_to(1024),
                  "Number of threads of the cloth solver; 0: one per core.");
 }

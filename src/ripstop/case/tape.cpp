@@ -66,7 +66,7 @@ TapeMaterial tape_for(const Case& given, double line_load) {
   const Tape& chosen = lightest ? *lightest : *strongest;
   const double used = *used_of_tape(given, line_load, chosen);
   return {chosen.name,
-          fmt::format("{} a line's {:.3g} N ({:.0f} % used)",
+          fmt::format("{} a line's {:.3g} N (utilisation {:.0f} %)",
                       lightest ? "the lightest tape that carries" : "the strongest tape, too weak for",
                       line_load, 100 * used),
           used};

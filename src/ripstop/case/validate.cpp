@@ -337,8 +337,10 @@ void check_opening_air(const Case& given, const FlowSettings& flow, Findings& fi
   if (given.inflation.air != AirModel::coupled) return;
   if (!findings.sound({"flow.porosity_model", "flow.engine"})) return;
   if (flow.porosity_model != PorosityModel::sheet)
-    findings.add("inflation.air", quoted("coupled"), quoted("uniform"),
-                 "coupled inflation needs the sheet model (flow.porosity_model)");
+    findings.add(
+        "inflation.air", quoted("coupled"), quoted("uniform"),
+        "coupled inflation needs the sheet model: set flow.porosity_model = \"sheet\" and a cloth with "
+        "an air permeability");
   else if (!engine_of(given.flow.engine).can.time)
     findings.add("inflation.air", quoted("coupled"), quoted("uniform"),
                  fmt::format("the flow engine {} (flow.engine) does not support unsteady flow",

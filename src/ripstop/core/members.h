@@ -45,10 +45,10 @@ inline constexpr OrNull or_null;
 
 /// Also in the line on a terminal.
 struct Shown {
-  const char* heading;
-  int width;           // without the blank before it
-  const char* format;  // of one number; empty: minutes and seconds
-  double factor = 1;   // of the number
+  const char* heading;  // "upper|lower" of two lines
+  int width;            // without the blank before it
+  const char* format;   // of one number; empty: minutes and seconds
+  double factor = 1;    // of the number
 };
 
 /// An absent number is not-a-number.

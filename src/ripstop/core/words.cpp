@@ -144,7 +144,7 @@ const std::map<std::string_view, Wording>& known() {  // NOLINT(readability-func
       {"momentum_residual", {"relative residual of the momentum balance", ""}},
       {"filling_caution", {"limit of the filling distance", ""}},
       {"gores_from", {"reason for more lines than the example has", ""}},
-      {"tape_used", {"load / allowable of the tape", ""}},
+      {"tape_used", {"utilisation of the tape", ""}},
       {"cells_across", {"flow cells across the inflated canopy", ""}},
       {"opening_force_coefficient", {"opening force coefficient C_x", ""}},
       {"finite_mass_factor", {"finite-mass factor X₁", ""}},

@@ -26,7 +26,6 @@ constexpr int rounds_between_looks = 4;
 constexpr double gain_wanted = 0.9;
 constexpr double radius_tolerance = 0.01;
 constexpr int most_corrections = 1;
-constexpr double least_share = 0.02;  // of the seams' radius that inner folds keep
 
 std::vector<int> pieces_of_cloth(const Mesh& mesh) {
   std::vector<int> piece(mesh.node_count(), -1);
@@ -139,13 +138,13 @@ double GoreFolder::share_for(double radius) {
       return std::numeric_limits<double>::infinity();  // the strips do not reach that far
     }
   };
-  double low = least_share, high = 1;
+  double low = least_inner_share, high = 1;
   const double least = mean(low);
   if (!(radius > least)) {
     throw QuantityError(
         ExitCode::usage,
         fmt::format(
-            "radius of the folded skirt = {}: with {} folds the skirt folds to no less than {:.4g} m; "
+            "radius of the folded skirt = {:.4g}: with {} folds the skirt folds to no less than {:.4g} m; "
             "more folds allow smaller radii",
             folding_.initial_radius, folds_, least),
         {"radius of the folded skirt"});
@@ -159,7 +158,7 @@ double GoreFolder::share_for(double radius) {
     throw QuantityError(
         ExitCode::usage,
         fmt::format(
-            "radius of the folded skirt = {}: with {} folds the skirt folds to no more than {:.4g} m, "
+            "radius of the folded skirt = {:.4g}: with {} folds the skirt folds to no more than {:.4g} m, "
             "else its strips are too short",
             folding_.initial_radius, folds_, reached),
         {"radius of the folded skirt"});

@@ -47,8 +47,10 @@ class FoldWaves {
 
 double required_radius(const InflationSettings& settings) {
   if (!settings.initial_radius_m) {
-    throw QuantityError(ExitCode::usage, "radius of the folded skirt is not given: for example 0.1 m",
-                        {"radius of the folded skirt"});
+    throw QuantityError(
+        ExitCode::usage,
+        "radius of the folded skirt is not given; give for example a tenth of the nominal diameter",
+        {"radius of the folded skirt"});
   }
   return *settings.initial_radius_m;
 }

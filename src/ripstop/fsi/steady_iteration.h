@@ -39,25 +39,25 @@ struct SteadyIteration {
 
 template <Of<SteadyIteration> T, class Visit>
 void each_member(T& i, Visit&& visit) {
-  visit("iteration", i.iteration, Shown{"", 4, "{:.0f}"});
-  visit("drag_n", i.fluid_force, Shown{"air load N", 10, "{:.2f}"});
-  visit("nodal_load_n", i.nodal_load, Shown{"cloth load N", 12, "{:.2f}"});
-  visit("line_tension_n", i.line_tension, Shown{"line load N", 11, "{:.2f}"});
-  visit("momentum_deficit_n", i.momentum_deficit, Shown{"deficit N", 9, "{:.2f}"});
-  visit("transfer_factor", i.transfer_factor, Shown{"transfer", 8, "{:.3f}"});
+  visit("iteration", i.iteration, Shown{"|iter.", 5, "{:.0f}"});
+  visit("drag_n", i.fluid_force, Shown{"air|load N", 8, "{:.2f}"});
+  visit("nodal_load_n", i.nodal_load, Shown{"cloth|load N", 8, "{:.2f}"});
+  visit("line_tension_n", i.line_tension, Shown{"line|load N", 8, "{:.2f}"});
+  visit("momentum_deficit_n", i.momentum_deficit, Shown{"momentum|deficit N", 9, "{:.2f}"});
+  visit("transfer_factor", i.transfer_factor);
   visit("load_remainder", i.residual_traction);
   visit("axial_moment_n_m", i.axial_moment);
   visit("section_gap", i.section_gap);
   visit("approach_speed_m_s", i.approach_speed);
-  visit("drag_change", i.drag_change, Shown{"d(drag)", 10, "{:.3f} %", 100});
-  visit("shape_change_m", i.shape_change, Shown{"e_k mm", 10, "{:.3f}", 1000});
-  visit("omega", i.omega, Shown{"omega", 9, "{:.1e}"});
-  visit("printed_tolerance", i.printed_tolerance, Shown{"Eq. 19", 9, "{:.1e}"});
-  visit("cloth_steps", i.cloth_steps, Shown{"cloth", 7, "{:.0f}"});
+  visit("drag_change", i.drag_change, Shown{"drag|change", 8, "{:.3f} %", 100});
+  visit("shape_change_m", i.shape_change, Shown{"shape|change mm", 9, "{:.3f}", 1000});
+  visit("omega", i.omega);
+  visit("printed_tolerance", i.printed_tolerance);
+  visit("cloth_steps", i.cloth_steps, Shown{"cloth|steps", 5, "{:.0f}"});
   visit("cloth_residual", i.cloth_residual);
   visit("cloth_hold_pa_m", i.regularisation);
   visit("cloth_held", i.regularisation_share);
-  visit("flow_iterations", i.flow_iterations, Shown{"flow", 6, "{:.0f}"});
+  visit("flow_iterations", i.flow_iterations, Shown{"flow|steps", 5, "{:.0f}"});
   visit("flow_residual", i.flow_residual);
   visit("flow_converged", i.flow_converged);
   visit("flow_averaged", i.flow_averaged);
@@ -65,7 +65,7 @@ void each_member(T& i, Visit&& visit) {
   visit("in_time", i.in_time);
   visit("drag_error_n", i.drag_error);
   visit("cut_cells", i.cut_cells);
-  visit("wall_time_s", i.wall_time, Shown{"time", 8, ""});
+  visit("wall_time_s", i.wall_time, Shown{"|time", 5, ""});
 }
 
 }  // namespace ripstop

@@ -19,9 +19,9 @@ void check_lines(const Design& design, Findings& findings) {
   const bool sound = findings.sound(shape_keys(design));
   const double radius = sound ? facts(design).skirt_radius : 0;
   if (sound && findings.sound({"parachute.lines.length_m"}) && lines.length_m <= radius)
-    findings.add("parachute.lines.length_m", lines.length_m, fmt::format("above {}", radius),
+    findings.add("parachute.lines.length_m", lines.length_m, fmt::format("above {:.4g}", radius),
                  fmt::format("the lines are too short to meet on the axis; they must be longer than the "
-                             "radius of the skirt, {} m",
+                             "radius of the skirt, {:.4g} m",
                              radius));
   if (sound && findings.sound({"parachute.lines.onto_disk_m"}) && lines.onto_disk_m) {
     const double run = facts(design).line_run;

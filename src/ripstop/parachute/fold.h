@@ -15,6 +15,9 @@ struct Folding {
   double slack = 0;           // by which a line is longer than its way from confluence to skirt [m]
 };
 
+/// Smallest radius of the inner folds of a canopy of gores, over the radius of its seams as cut.
+inline constexpr double least_inner_share = 0.02;
+
 struct FoldedStart {
   std::vector<Vec3> positions;  // logical numbering [m]
   int folds = 0;

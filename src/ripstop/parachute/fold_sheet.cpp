@@ -113,7 +113,7 @@ FoldedStart fold_sheet(const CanopyMesh& mesh, const Folding& folding) {
   if (!(folding.initial_radius > mean(low) && folding.initial_radius < mean(high)))
     throw QuantityError(
         ExitCode::usage,
-        fmt::format("radius of the folded skirt = {}: with 4 folds the ends of the lines can lie from "
+        fmt::format("radius of the folded skirt = {:.4g}: with 4 folds the ends of the lines can lie from "
                     "{:.4g} m to below {:.4g} m from the axis",
                     folding.initial_radius, mean(low), mean(high)),
         {"radius of the folded skirt"});

@@ -42,7 +42,8 @@ TEST_F(FitFiles, TheMaterialHasItsProvenanceAndReadsBack) {
     has(fmt::format("{}: {} samples, degree 2, R2 {:.4f}, tested up to strain {:.4g}, K_0 0", d.name,
                     d.name == "warp" ? 10 : 5, d.fit.r2, d.curve.tested_strain));  // the weft is like it
     for (std::size_t k = 0; k < 2; ++k)
-      has(d.name + " K_" + std::to_string(k + 1) + " " + interval_text(d.fit.k.at(k)));
+      has(d.name + " K_" + std::to_string(k + 1) + " " +
+          interval_text(d.fit.k.at(k), load_unit(d), result.bench.confidence));
   }
   for (const std::string& note : result.fit.notes) has(note);
   EXPECT_EQ(text.find("virtual"), std::string::npos);  // no coupon was pulled
@@ -111,10 +112,11 @@ TEST_F(FitFiles, ResultJsonHasTheCampaignItsDirectionsAndTheAir) {
 }
 
 TEST(FitText, AnIntervalIsPrintedWhereThereIsOne) {
-  EXPECT_EQ(interval_text({1234.5678, 12.34, 1200, 1269.1356}),
-            "1234.57 +- 12 (standard error), 1200 .. 1269.14");
+  EXPECT_EQ(interval_text({1234.5678, 12.34, 1200, 1269.1356}, "N/m", 0.95),
+            "1234.57 N/m, standard error 12.34, 95 % interval 1200 to 1269.14");
+  EXPECT_EQ(interval_text({0, 0, 0, 0}, "N", 0.95), "0 N (not fitted)");
   const double none = std::nan("");
-  EXPECT_EQ(interval_text({2.5, none, none, none}), "2.5 (one sample: no interval)");
+  EXPECT_EQ(interval_text({2.5, none, none, none}, "N/m", 0.95), "2.5 N/m (one sample: no interval)");
   DirectionFit direction;
   direction.name = "line";
   EXPECT_EQ(load_unit(direction), std::string("N"));

@@ -36,7 +36,7 @@ TEST(CompareRuns, RefusesOneRunAndFoldersWithoutOne) {
   const auto refused = [&](const std::vector<std::filesystem::path>& folders) {
     return refusal_of([&] { compare_runs(folders); }, ExitCode::usage);
   };
-  EXPECT_NE(refused({root.path}).find("two folders"), std::string::npos);
+  EXPECT_NE(refused({root.path}).find("two or more folders"), std::string::npos);
   EXPECT_NE(refused({root.path, root.path}).find("contains no finished run"), std::string::npos);
 }
 

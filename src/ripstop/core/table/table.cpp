@@ -158,7 +158,7 @@ std::string range_of(const Column& column) {
   }
   if (count == 0) return "no values";
   const std::size_t missing = column.values.size() - count;
-  return fmt::format("{} values from {:.5g} to {:.5g} in SI{}", count, low, high,
+  return fmt::format("{} values from {:.5g} to {:.5g} in SI units{}", count, low, high,
                      missing > 0 ? fmt::format(", {} cells empty", missing) : "");
 }
 

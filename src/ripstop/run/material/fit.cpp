@@ -68,10 +68,12 @@ Json to_json(const std::vector<CouponComparison>& coupons) {
 
 }  // namespace
 
-std::string interval_text(const Estimate& e) {
-  if (!std::isfinite(e.standard_error)) return fmt::format("{:.6g} (one sample: no interval)", e.value);
-  return fmt::format("{:.6g} +- {:.2g} (standard error), {:.6g} .. {:.6g}", e.value, e.standard_error, e.low,
-                     e.high);
+std::string interval_text(const Estimate& e, const char* unit, double confidence) {
+  if (!std::isfinite(e.standard_error))
+    return fmt::format("{:.6g} {} (one sample: no interval)", e.value, unit);
+  if (e.standard_error == 0) return fmt::format("{:.6g} {} (not fitted)", e.value, unit);
+  return fmt::format("{:.6g} {}, standard error {:.4g}, {:.0f} % interval {:.6g} to {:.6g}", e.value, unit,
+                     e.standard_error, 100 * confidence, e.low, e.high);
 }
 
 const char* load_unit(const DirectionFit& direction) {
@@ -165,7 +167,8 @@ std::string material_toml(const FitResult& result) {
     say(fmt::format("{}: {} samples, degree {}, R2 {:.4f}, tested up to strain {:.4g}, K_0 {:.4g}", d.name,
                     d.samples.size(), d.fit.degree, d.fit.r2, d.fit.tested_strain, d.fit.offset.value));
     for (std::size_t k = 0; k < d.fit.k.size(); ++k)
-      say(fmt::format("{} K_{} {}", d.name, k + 1, interval_text(d.fit.k[k])));
+      say(fmt::format("{} K_{} {}", d.name, k + 1,
+                      interval_text(d.fit.k[k], load_unit(d), bench.confidence)));
   }
   if (coupons) {
     if (coupons->searched)

@@ -39,7 +39,8 @@ std::string to_json(const FitResult& result);
 std::string coupons_json(const Fabric& material, const Bench& bench, const MaterialFit& fit,
                          const std::string& asked, const std::vector<CouponComparison>& coupons);
 
-std::string interval_text(const Estimate& estimate);
+/// Value, standard error and interval in `unit`; `confidence` is that of the interval, 0.95.
+std::string interval_text(const Estimate& estimate, const char* unit, double confidence);
 const char* load_unit(const DirectionFit& direction);  // "N" of a line, else "N/m"
 
 }  // namespace ripstop

@@ -105,14 +105,15 @@ std::string outside_of_methods(const OpeningConditions& c, const LoadRequest& re
 }
 
 /// The handbook's filling distances were measured on large canopies. The methods apply to a smaller one, whose
-/// deployment decides over the distance.
+/// deployment determines the distance.
 std::string caution_on_filling(const LoadRequest& request, double nominal_diameter) {
   if (!of_handbook(request)) return "";
   const std::string text = joined(outside_range(filling_model, {{"nominal diameter", nominal_diameter}}));
   return text.empty() ? ""
                       : text +
-                            "; the deployment decides over 1 to 20 D0 (--filling-constant), and a canopy "
-                            "that is thrown open approaches the infinite-mass load";
+                            "; a small canopy fills within 1 to 20 D0, depending on its deployment (set it "
+                            "with --filling-constant), and one that is thrown open approaches the "
+                            "infinite-mass load";
 }
 
 void add_methods(const OpeningConditions& c, double ludtke_exponent, double integral, StageLoads& stage) {
@@ -127,8 +128,9 @@ void add_methods(const OpeningConditions& c, double ludtke_exponent, double inte
       : !light   ? fmt::format("neglects gravity, which adds {:.0f} % to the speed", 100 * gravity)
                  : stage.outside;
   stage.methods.push_back({infinite_mass_method, infinite_mass_load(c).load, 0, x.factor > hardly_slowed,
-                           x.factor > hardly_slowed ? "the speed decreases little during filling"
-                                                    : "an upper bound: the speed decreases during filling"});
+                           x.factor > hardly_slowed
+                               ? "the speed decreases little during filling"
+                               : "an upper bound on a horizontal path: the speed decreases during filling"});
   OpeningConditions by_ludtke = c;
   by_ludtke.exponent = ludtke_exponent;
   const OpeningLoad pflanz = pflanz_load(c), ludtke = ludtke_load(by_ludtke);

@@ -54,7 +54,10 @@ std::string to_json(const RunComparison& comparison) {
 }
 
 RunComparison compare_runs(const std::vector<std::filesystem::path>& folders) {
-  if (folders.size() < 2) throw Error(ExitCode::usage, "two folders of finished runs at least are compared");
+  if (folders.size() < 2)
+    throw Error(ExitCode::usage,
+                "give two or more folders of finished runs, or one with --measured FILE, or a case file with "
+                "--linear");
   RunComparison comparison;
   std::vector<Json> results;
   std::vector<std::string> keys;

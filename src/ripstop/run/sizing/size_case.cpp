@@ -46,8 +46,7 @@ std::string comment_on(const std::string& key, const SizeResult& r) {
                                : "";
   if (key == "vent_diameter_m")
     return fmt::format("{:.2f} % of the area", 100 * r.vent_area / r.nominal_area);
-  if (key == "lines.material")
-    return fmt::format("{:.0f} % of its allowable load at opening", 100 * r.line_used);
+  if (key == "lines.material") return fmt::format("utilisation {:.0f} % at opening", 100 * r.line_used);
   if (key == "tape.material") return r.tape_source;
   return "";
 }
