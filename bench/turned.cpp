@@ -22,7 +22,7 @@
 namespace ripstop {
 namespace {
 
-constexpr double speed = 20, half_box = 5, half_core = 0.8;  // [m/s], [m]; the body is 1 m wide
+constexpr double speed = 20, half_box = 8, half_core = 0.8;  // [m/s], [m]; the body is 1 m wide
 
 struct Body {
   std::string name;
@@ -62,13 +62,13 @@ FlowProblem problem_of(const Body& body, Direction direction, int across) {
   FlowProblem problem;
   const Vec3 wind = wind_direction(direction.angle, direction.azimuth), corner{half_box, half_box, half_box},
              core{half_core, half_core, half_core};
-  const int cells = static_cast<int>(std::lround(2 * half_core * across)) + 2 * 14;
+  const int cells = static_cast<int>(std::lround(2 * half_core * across)) + 2 * 17;
   problem.grid = graded({-corner, 2 * corner, cells, cells, cells}, -core, core, 1.2);
   problem.air.velocity = speed * wind;
   problem.sides = Sides::far_field;
   problem.bodies = {
       sheet_body(turned(body.surface, wind), {body.linear, body.loss * problem.air.density / 2}, body.name)};
-  problem.stopping = {.residual = 1e-5, .max_iterations = 400, .average_over = 100};
+  problem.stopping = {.residual = 1e-5, .max_iterations = 500, .average_over = 100};
   return problem;
 }
 
@@ -89,10 +89,13 @@ Result force_on(const Body& body, Direction direction, int across) {
           dot(field.momentum_deficit, wind) / drag - 1};
 }
 
-// Of |C_D - that of the stream along z| from the coarsest to the finest grid, by their cells.
+// Of |C_D - that of the stream along z| from the coarsest to the finest grid, by their cells; none where it does not
+// fall from grid to grid.
 std::string order_of(const std::vector<double>& off, const std::vector<int>& across) {
   const double first = std::abs(off.front()), last = std::abs(off.back());
-  if (off.size() < 2 || first == 0 || last == 0) return "-";
+  if (off.size() < 2 || std::max(first, last) < 1e-6) return "-";
+  for (std::size_t n = 1; n < off.size(); ++n)
+    if (std::abs(off[n]) >= std::abs(off[n - 1])) return "none";
   return fmt::format("{:.1f}", std::log(first / last) / std::log(double(across.back()) / across.front()));
 }
 
