@@ -1,7 +1,11 @@
-// Rigid bodies at an angle of attack, in time: the body stays on the cells, the stream turns.
+// Rigid bodies at an angle of attack: the body stays on the cells, the stream turns. The angle is between the axis of the
+// body and the stream: 0 for a plate across the stream.
 //
-// bench_attack plate CELLS ANGLE...              a square plate of 1 m, tight
-// bench_attack FILE.stl A B D0 CELLS ANGLE...    a surface with the pressure drop A v + B v |v| and nominal diameter D0
+// bench_attack [HOW] plate CELLS ANGLE...              a square plate of 1 m, impermeable
+// bench_attack [HOW] FILE.stl A B D0 CELLS ANGLE...    a surface with the pressure drop A v + B v |v| and nominal
+//                                                      diameter D0
+//     HOW  nothing: built-in engine, in time; "steady": its steady iteration; "fitted FOLDER": OpenFOAM, steady, on a
+//          mesh that follows the cloth, whose cells are half as wide at the cloth and twice as wide elsewhere
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -13,7 +17,9 @@
 #include "ripstop/flow/bodies.h"
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/extent.h"
+#include "ripstop/flow/openfoam/openfoam.h"
 #include "ripstop/flow/projections.h"
+#include "ripstop/flow/steady.h"
 #include "ripstop/flow/stl.h"
 #include "ripstop/flow/unsteady.h"
 #include "table.h"
@@ -58,28 +64,70 @@ FlowProblem problem_of(const Body& body, double angle, int across) {
   return problem;
 }
 
-void attack(const Body& body, int across, const std::vector<double>& angles, int argc, char** argv) {
+/// How the flow is computed.
+enum class Method { in_time, steady, fitted };
+
+struct Answer {
+  FlowField field;
+  double error = 0;  // standard error of the drag, over it
+};
+
+Answer in_time(const FlowProblem& problem, const Body& body) {
+  CartesianSettings settings;
+  settings.small_eddies = SmallEddies::des;
+  const auto engine = make_cartesian(settings);
+  const auto flow = engine->start(problem);
+  Watch how;
+  how.length = body.diameter, how.standard_error = 0.005, how.shortest = 20, how.longest = 60;
+  FlowRecord record;
+  Answer answer{watch(*flow, problem, how, record)};
+  answer.error = record.drag.standard_error / std::abs(record.drag.mean);
+  return answer;
+}
+
+Answer steady(FlowProblem problem) {
+  problem.stopping = {.residual = 1e-5, .max_iterations = 600, .average_over = 100};
+  CartesianSettings settings;
+  settings.second_order = true;
+  return {solve(*make_cartesian(settings), problem)};
+}
+
+Answer fitted(FlowProblem problem, const std::string& folder) {
+  problem.stopping.residual = 1e-4;
+  problem.stopping.max_iterations = 600;
+  OpenFoamSettings settings;
+  settings.folder = folder;
+  settings.second_order = settings.fitted_mesh = true;
+  settings.cloth_levels = 2;
+  return {solve(*make_openfoam(settings), problem)};
+}
+
+constexpr const char* names[] = {"built-in engine, in time, DES", "built-in engine, steady",
+                                 "OpenFOAM, steady, fitted mesh"};
+
+void attack(const Body& body, int across, const std::vector<double>& angles, Method method,
+            const std::string& folder, int argc, char** argv) {
   print_table_head(
-      fmt::format("{} at an angle of attack, DES, {} cells across", body.name, across), argc, argv,
-      {"angle, deg", "C_T", "C_N", "side force / q S", "standard error of drag, %", "balance, %"});
+      fmt::format("{} at an angle of attack, {} cells across: {}", body.name, across,
+                  names[static_cast<int>(method)]),
+      argc, argv,
+      {"angle, deg", "C_T", "C_N", "side force / q S", "standard error of drag, %", "force imbalance, %"});
   for (const double angle : angles) {
-    const FlowProblem problem = problem_of(body, angle, across);
-    CartesianSettings settings;
-    settings.small_eddies = SmallEddies::des;
-    const auto engine = make_cartesian(settings);
-    const auto flow = engine->start(problem);
-    Watch how;
-    how.length = body.diameter, how.standard_error = 0.005, how.shortest = 20, how.longest = 60;
-    FlowRecord record;
-    const FlowField mean = watch(*flow, problem, how, record);
+    const bool foam = method == Method::fitted;
+    const FlowProblem problem = problem_of(body, angle, foam ? across / 2 : across);
+    const Answer answer = foam                       ? fitted(problem, folder)
+                          : method == Method::steady ? steady(problem)
+                                                     : in_time(problem, body);
+    const FlowField& field = answer.field;
     const Attitude attitude{{0, 0, 1}, problem.air.velocity};
     const Coefficients c =
-        coefficients(mean.bodies.at(0), attitude, {problem.air.density, body.area, body.diameter});
+        coefficients(field.bodies.at(0), attitude, {problem.air.density, body.area, body.diameter});
     print_row({fmt::format("{:g}", angle), fmt::format("{:.3f}", c.tangential),
                fmt::format("{:.3f}", c.normal), fmt::format("{:.3f}", c.side),
-               fmt::format("{:.2f}", 100 * record.drag.standard_error / std::abs(record.drag.mean)),
-               fmt::format("{:+.2f}",
-                           100 * norm(mean.momentum_deficit - mean.porous_force) / norm(mean.porous_force))});
+               method == Method::in_time ? fmt::format("{:.2f}", 100 * answer.error) : "-",
+               foam ? "-"
+                    : fmt::format("{:+.2f}", 100 * norm(field.momentum_deficit - field.porous_force) /
+                                                 norm(field.porous_force))});
   }
 }
 
@@ -88,17 +136,25 @@ void attack(const Body& body, int across, const std::vector<double>& angles, int
 
 int main(int argc, char** argv) {
   using namespace ripstop;
-  const bool plate = argc > 1 && std::string(argv[1]) == "plate";
-  const int first = plate ? 2 : 5;
-  if (argc < first + 2)
-    return fmt::print("bench_attack plate CELLS ANGLE... | FILE.stl A B D0 CELLS ANGLE...\n"), 2;
-  const double d0 = plate ? 1 : std::atof(argv[4]);
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  std::size_t at = 0;
+  Method method = Method::in_time;
+  std::string folder;
+  if (words.size() > 1 && words[0] == "steady") method = Method::steady, at = 1;
+  if (words.size() > 2 && words[0] == "fitted") method = Method::fitted, folder = words[1], at = 2;
+  const bool plate = at < words.size() && words[at] == "plate";
+  const std::size_t first = at + (plate ? 1 : 4);
+  if (words.size() < first + 2)
+    return fmt::print(
+               "bench_attack [steady|fitted FOLDER] plate CELLS ANGLE... | FILE.stl A B D0 CELLS ANGLE...\n"),
+           2;
+  const auto number = [&](std::size_t n) { return std::atof(words[n].c_str()); };
+  const double d0 = plate ? 1 : number(at + 3);
   const Body body =
       plate
           ? Body{"square plate", square_plate(1, {}), {1e6, 0}, 1, 1}
-          : centred(
-                {argv[1], read_stl(argv[1]), {std::atof(argv[2]), std::atof(argv[3])}, pi / 4 * d0 * d0, d0});
+          : centred({words[at], read_stl(words[at]), {number(at + 1), number(at + 2)}, pi / 4 * d0 * d0, d0});
   std::vector<double> angles;
-  for (int n = first + 1; n < argc; ++n) angles.push_back(std::atof(argv[n]));
-  attack(body, std::atoi(argv[first]), angles, argc, argv);
+  for (std::size_t n = first + 1; n < words.size(); ++n) angles.push_back(number(n));
+  attack(body, static_cast<int>(number(first)), angles, method, folder, argc, argv);
 }

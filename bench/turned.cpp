@@ -1,8 +1,11 @@
 // Bodies turned together with the stream, in a box that stays: how much of the force depends on how they lie on the
 // cells.
 //
-// bench_turned [CELLS...]              a porous disk and a cup; cells across the body, coarse to fine
-// bench_turned FILE.stl A B [CELLS...]  a surface with the pressure drop A v + B v |v|, enlarged to 1 m across x
+// bench_turned [BODY] [ANGLE:AZIMUTH ...] [CELLS ...]
+//     BODY           disk (porous), cup, or FILE.stl A B, a surface with the pressure drop A v + B v |v|, enlarged to 1 m
+//                    across x; without one disk and cup
+//     ANGLE:AZIMUTH  of the stream; compared with that along z. Without one all of the list below
+//     CELLS          across the body, coarse to fine
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -31,9 +34,11 @@ struct Body {
       loss;  // of its cloth: [Pa s/m], and the drop over the dynamic pressure of the flow through it
 };
 
-std::vector<Body> bodies_of_known_shape() {
-  return {{"porous disk, loss coefficient 2", disk(1, {}), 0, 2},
-          {"hemispherical cup of F-111 cloth", hemispherical_cup(1, {0, 0, -0.25}), 8169.3, 0}};
+Body porous_disk() {
+  return {"porous disk, loss coefficient 2", disk(1, {}), 0, 2};
+}
+Body cup() {
+  return {"hemispherical cup of F-111 cloth", hemispherical_cup(1, {0, 0, -0.25}), 8169.3, 0};
 }
 
 Body body_from(const std::string& file, double a, double b) {
@@ -55,8 +60,8 @@ Body body_from(const std::string& file, double a, double b) {
 struct Direction {
   double angle, azimuth;  // of the stream [degrees]
 };
-constexpr Direction directions[] = {{0, 0},   {20, 0},  {45, 0},       {90, 0},
-                                    {20, 45}, {45, 45}, {54.7356, 45}, {90, 45}};
+const std::vector<Direction> all_directions = {{0, 0},   {20, 0},  {45, 0},       {90, 0},
+                                               {20, 45}, {45, 45}, {54.7356, 45}, {90, 45}};
 
 FlowProblem problem_of(const Body& body, Direction direction, int across) {
   FlowProblem problem;
@@ -68,7 +73,7 @@ FlowProblem problem_of(const Body& body, Direction direction, int across) {
   problem.sides = Sides::far_field;
   problem.bodies = {
       sheet_body(turned(body.surface, wind), {body.linear, body.loss * problem.air.density / 2}, body.name)};
-  problem.stopping = {.residual = 1e-5, .max_iterations = 400, .average_over = 100};
+  problem.stopping = {.residual = 1e-4, .max_iterations = 400, .average_over = 100};
   return problem;
 }
 
@@ -89,14 +94,18 @@ Result force_on(const Body& body, Direction direction, int across) {
           dot(field.momentum_deficit, wind) / drag - 1};
 }
 
-// Of |C_D - that of the stream along z| from the coarsest to the finest grid, by their cells.
+// Of |C_D - that of the stream along z| from the coarsest to the finest grid, by their cells; none where it does not
+// fall from grid to grid.
 std::string order_of(const std::vector<double>& off, const std::vector<int>& across) {
   const double first = std::abs(off.front()), last = std::abs(off.back());
-  if (off.size() < 2 || first == 0 || last == 0) return "-";
+  if (off.size() < 2 || std::max(first, last) < 1e-6) return "-";
+  for (std::size_t n = 1; n < off.size(); ++n)
+    if (std::abs(off[n]) >= std::abs(off[n - 1])) return "none";
   return fmt::format("{:.1f}", std::log(first / last) / std::log(double(across.back()) / across.front()));
 }
 
-void turn(const std::vector<Body>& bodies, const std::vector<int>& across, int argc, char** argv) {
+void turn(const std::vector<Body>& bodies, const std::vector<Direction>& directions,
+          const std::vector<int>& across, int argc, char** argv) {
   std::vector<std::string> columns = {"body", "angle, deg", "azimuth, deg"};
   for (const int n : across) {
     columns.push_back(fmt::format("C_D, {} cells", n));
@@ -133,10 +142,24 @@ void turn(const std::vector<Body>& bodies, const std::vector<int>& across, int a
 
 int main(int argc, char** argv) {
   using namespace ripstop;
-  const bool from_file = argc > 3 && std::string(argv[1]).ends_with(".stl");
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  std::vector<Body> bodies = {porous_disk(), cup()};
+  std::vector<Direction> directions;
   std::vector<int> across;
-  for (int n = from_file ? 4 : 1; n < argc; ++n) across.push_back(std::atoi(argv[n]));
-  turn(from_file ? std::vector<Body>{body_from(argv[1], std::atof(argv[2]), std::atof(argv[3]))}
-                 : bodies_of_known_shape(),
+  std::size_t n = 0;
+  if (!words.empty() && words[0] == "disk") bodies = {porous_disk()}, n = 1;
+  if (!words.empty() && words[0] == "cup") bodies = {cup()}, n = 1;
+  if (words.size() > 2 && words[0].ends_with(".stl"))
+    bodies = {body_from(words[0], std::stod(words[1]), std::stod(words[2]))}, n = 3;
+  for (; n < words.size(); ++n) {
+    const std::size_t colon = words[n].find(':');
+    if (colon == std::string::npos) {
+      across.push_back(std::stoi(words[n]));
+    } else {
+      if (directions.empty()) directions.push_back({0, 0});
+      directions.push_back({std::stod(words[n]), std::stod(words[n].substr(colon + 1))});
+    }
+  }
+  turn(bodies, directions.empty() ? all_directions : directions,
        across.empty() ? std::vector<int>{8, 16, 24} : across, argc, argv);
 }

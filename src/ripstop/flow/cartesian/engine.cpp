@@ -4,12 +4,14 @@
 #include <cmath>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/hash.h"
 #include "ripstop/core/quantity_error.h"
 #include "ripstop/flow/cartesian/cartesian.h"
+#include "ripstop/flow/cartesian/march_frame.h"
 #include "ripstop/flow/cartesian/solver.h"
 
 namespace ripstop {
@@ -87,8 +89,9 @@ QuantityError divergence(const Solver& solver, const std::string& when, const st
 constexpr const char* state_file = "cartesian.flow";
 
 struct Header {
-  char magic[8] = {'r', 'i', 'p', 'f', 'l', 'o', 'w', '9'};
-  FlowGrid grid;
+  char magic[8] = {'r', 'i', 'p', 'f', 'l', 'o', 'w', 'A'};
+  int frame = 0;  // MarchFrame::number()
+  FlowGrid grid;  // in that frame, as all else
   Freestream air;
   std::string sides, outlet;  // words
   int jets = 0;               // 0 or 1
@@ -98,7 +101,7 @@ struct Header {
 /// to make the same file.
 template <class AnyHeader, class Visit>
 void each_number(AnyHeader& h, Visit&& visit) {
-  visit(h.magic);
+  visit(h.magic), visit(h.frame);
   visit(h.grid.origin), visit(h.grid.size), visit(h.grid.nx), visit(h.grid.ny), visit(h.grid.nz);
   for (auto& g : h.grid.grading) visit(g);
   visit(h.air), visit(h.sides), visit(h.outlet), visit(h.jets);
@@ -161,15 +164,17 @@ class Reader {
 class CartesianFlow final : public Flow {
  public:
   CartesianFlow(const FlowProblem& problem, const CartesianSettings& settings, ThreadTeam& team)
-      : problem_(problem),
+      : frame_(problem.air.velocity),
+        given_grid_(problem.grid),
+        problem_(frame_.into(problem)),
         settings_(settings),
         team_(team),
-        solver_(problem, problem.grid, porous(), settings, team) {}
+        solver_(problem_, problem_.grid, porous(), settings, team) {}
 
   void place(std::size_t which, const std::vector<Triangle>& surface, const SheetMotion& motion) override {
     FlowBody& body = problem_.bodies.at(which);
-    body.surface = surface, body.motion = motion;
-    if (!body.is_sheet()) body.porous().cells = cut_cells(problem_.grid, surface);
+    body.surface = frame_.into(surface), body.motion = frame_.into(motion);
+    if (!body.is_sheet()) body.porous().cells = cut_cells(problem_.grid, body.surface);
     solver_.place(porous(), problem_.bodies);
   }
 
@@ -185,15 +190,17 @@ class CartesianFlow final : public Flow {
           fmt::format("flow: a stream of ({:g}, {:g}, {:g}) m/s does not enter through the inlet along +z; "
                       "choose the sides \"{}\"",
                       velocity.x, velocity.y, velocity.z, Sides::far_field.word));
-    solver_.stream(velocity, acceleration);
+    solver_.stream(frame_.into(velocity), frame_.into(acceleration));
   }
   FlowField field() const override {
     FlowField field = solver_.field();
     field.bodies = body_loads(field.sheet_loads);
-    return field;
+    return frame_.back(std::move(field), given_grid_);
   }
-  void add_to(FieldMean& mean) const override { solver_.add_to(mean, body_loads(solver_.sheet_loads())); }
-  std::vector<SheetLoad> sheet_loads() const override { return solver_.sheet_loads(); }
+  void add_to(FieldMean& mean) const override {
+    frame_.same() ? solver_.add_to(mean, body_loads(solver_.sheet_loads())) : Flow::add_to(mean);
+  }
+  std::vector<SheetLoad> sheet_loads() const override { return frame_.back(solver_.sheet_loads()); }
   bool untouched() const override { return solver_.state().untouched; }
 
   void guess() override {
@@ -218,6 +225,8 @@ class CartesianFlow final : public Flow {
     throw Error(ExitCode::usage,
                 fmt::format("flow: a Courant number of {}; must be above 0 and at most 1", courant));
   }
+  /// The first bad value of a solver.
+  std::string where(const Solver& solver) const;
   QuantityError diverged_by(const FlowStep& now) const;
   static PorousRows porous(const FlowProblem& problem) {
     return {problem.grid, problem.bodies, problem.air.viscosity};
@@ -227,11 +236,18 @@ class CartesianFlow final : public Flow {
   FlowAdvance run(Solver& solver, int iterations, double residual, const FlowReport& report) const;
   void guess_from_coarser(const FlowGrid& grid, const PorousRows& porous, Solver& fine) const;
 
-  FlowProblem problem_;
+  MarchFrame frame_;
+  FlowGrid given_grid_;
+  FlowProblem problem_;  // in the frame
   CartesianSettings settings_;
   ThreadTeam& team_;
   Solver solver_;
 };
+
+std::string CartesianFlow::where(const Solver& solver) const {
+  const std::string bad = solver.first_bad_value();
+  return frame_.same() ? bad : fmt::format("{}, with {}", bad, frame_.text());
+}
 
 FlowAdvance CartesianFlow::run(Solver& solver, int iterations, double residual,
                                const FlowReport& report) const {
@@ -245,13 +261,13 @@ FlowAdvance CartesianFlow::run(Solver& solver, int iterations, double residual,
     now.last.iteration = n;
     const double worst = now.last.residual_u + now.last.residual_p + now.last.residual_k +
                          now.last.residual_omega + now.last.drag;
-    if (!std::isfinite(worst)) throw diverged("in", solver.first_bad_value());
+    if (!std::isfinite(worst)) throw diverged("in", where(solver));
     now.converged = converged(now.last, residual);
     now.stopped = report && !report(now.last);
   }
   if (now.stopped) return now.converged = false, now;
   // Residuals are relative to the fields, and do not show fields that grow slowly without end.
-  if (!solver.shut() && !solver.within_reason()) throw diverged("by", solver.first_bad_value());
+  if (!solver.shut() && !solver.within_reason()) throw diverged("by", where(solver));
   return now;
 }
 
@@ -287,12 +303,11 @@ FlowStep CartesianFlow::step(double length) {
   FlowStep now = solver_.step(length);
   now.bodies = body_loads(solver_.sheet_loads());
   if (!std::isfinite(now.force.z) || !is_finite(now.momentum_gap)) throw diverged_by(now);
-  return now;
+  return frame_.back(std::move(now));
 }
 
 QuantityError CartesianFlow::diverged_by(const FlowStep& now) const {
-  return divergence(solver_, fmt::format("by step {}", now.step), solver_.first_bad_value(),
-                    "a smaller Courant number");
+  return divergence(solver_, fmt::format("by step {}", now.step), where(solver_), "a smaller Courant number");
 }
 
 void CartesianFlow::guess_from_coarser(const FlowGrid& grid, const PorousRows& porous, Solver& fine) const {
@@ -313,6 +328,7 @@ void CartesianFlow::guess_from_coarser(const FlowGrid& grid, const PorousRows& p
 void CartesianFlow::save(const std::filesystem::path& folder) const {
   Writer out;
   Header header;
+  header.frame = frame_.number();
   header.grid = problem_.grid, header.air = problem_.air;
   header.sides = problem_.sides.word, header.outlet = problem_.outlet.word;
   if (problem_.jet) header.jets = 1, header.jet = *problem_.jet;
@@ -355,9 +371,9 @@ State state_of(Reader& in, FlowProblem& problem, Solver& solver) {
 void CartesianFlow::restore(const std::filesystem::path& folder) {
   Reader in(folder / state_file);
   const Header header = header_of(in);
-  if (!(header.grid == problem_.grid) || header.sides != problem_.sides.word ||
-      header.outlet != problem_.outlet.word || (header.jets == 1) != problem_.jet.has_value() ||
-      (problem_.jet && !(header.jet == *problem_.jet)))
+  if (header.frame != frame_.number() || !(header.grid == problem_.grid) ||
+      header.sides != problem_.sides.word || header.outlet != problem_.outlet.word ||
+      (header.jets == 1) != problem_.jet.has_value() || (problem_.jet && !(header.jet == *problem_.jet)))
     throw Error(ExitCode::usage, (folder / state_file).string() + ": was made in a different flow domain");
   State state = state_of(in, problem_, solver_);
   if (!(header.air == problem_.air)) scale(state, header.air, problem_.air);
@@ -368,7 +384,7 @@ void CartesianFlow::restore(const std::filesystem::path& folder) {
 void CartesianFlow::continue_from(const std::filesystem::path& folder) {
   Reader in(folder / state_file);
   const Header header = header_of(in);
-  if (!(header.air == problem_.air))
+  if (header.frame != frame_.number() || !(header.air == problem_.air))
     throw Error(ExitCode::usage, (folder / state_file).string() + ": was made in different air");
   FlowProblem before = problem_;
   before.grid = header.grid, before.sides = {header.sides}, before.outlet = {header.outlet};
