@@ -11,6 +11,7 @@
 
 namespace ripstop {
 namespace {
+namespace swinging_disk {
 
 using std::numbers::pi;
 
@@ -121,5 +122,6 @@ TEST(Pendulum, HasThePeriodOfItsMassAndAddedMass) {
   EXPECT_NEAR(measured_period(mesh), expected, 0.05 * expected);
 }
 
+}  // namespace swinging_disk
 }  // namespace
 }  // namespace ripstop
