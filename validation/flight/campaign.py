@@ -35,8 +35,8 @@ class Flight:
     changes: tuple = ()
 
 
-FAMILIES = {"flat-circular": 15, "conical": 12, "elliptical": 10, "extended-skirt": 12, "hemispherical": 12,
-            "quarter-spherical": 10, "cross": 10, "ringslot": 8, "ringsail": 8, "disk-gap-band": 10}  # duration [s]
+FAMILIES = {"flat-circular": 15, "conical": 12, "elliptical": 6, "extended-skirt": 6, "hemispherical": 12,
+            "quarter-spherical": 6, "cross": 6, "ringslot": 5, "ringsail": 5, "disk-gap-band": 7}  # duration [s]
 F_111 = "parachute.canopy_material=f-111-physical"  # 3 CFM; the cases have MIL-C-7020 type I of 100 CFM
 CLOTHS = {"flat-circular, 3 CFM (F-111)": "flat-circular-f-111", "flat-circular, 30 CFM": "flat-circular-30-cfm",
           "flat-circular, 100 CFM": "flat-circular", "extended-skirt, 3 CFM (F-111)": "extended-skirt-f-111",
@@ -134,31 +134,39 @@ def kind_known(interval):
     return "steady" if interval[1] < STEADY_BELOW else "swinging" if interval[0] >= SWINGING_FROM else "between"
 
 
+def families_flown(results):
+    """Family, flight and result; a family that has not flown with the cloth of its case is that of F-111."""
+    for family in FAMILIES:
+        for name in (family, f"{family}-f-111"):
+            if name in results:
+                yield family, name, results[name]
+                break
+
+
 def families_table(results):
     rows = []
-    for name in FAMILIES:
-        if name not in results:
-            continue
-        r, angle = results[name], KNACKE_ANGLE.get(name)
+    for family, name, r in families_flown(results):
+        angle = KNACKE_ANGLE.get(family)
         mean = r["mean_oscillation_deg"]
         kind = "" if mean is None else kind_of(mean)
         if kind and angle:
             kind += ", as known" if kind == kind_known(angle) else f", known: {kind_known(angle)}"
-        rows.append([name, number(r, "rate_of_descent_m_s", "rate_of_descent_standard_error_m_s", 2),
-                     f"{r['axial_drag_coefficient']:.3f}", coefficient(r), printed(r["known_drag_coefficient"], ".2f"), agreement(r),
+        rows.append([family, "100" if name == family else "3", f"{r['duration_s']:.0f}",
+                     number(r, "rate_of_descent_m_s", "rate_of_descent_standard_error_m_s", 2), f"{r['axial_drag_coefficient']:.3f}", coefficient(r), printed(r["known_drag_coefficient"], ".2f"), agreement(r),
                      number(r, "glide_ratio", "glide_ratio_standard_error", 2), oscillation(r), printed(angle, "g"), kind,
                      "" if r["largest_oscillation_deg"] is None else f"{r['largest_oscillation_deg']:.0f}",
                      number(r, "oscillation_period_s", "oscillation_period_standard_error_s", 1), str(r["half_swings"])])
-    return tables.table(["family", "rate of descent m/s", "C_D0 on the axis", "C_D0 in descent", "Knacke", "agreement", "glide ratio",
+    return tables.table(["family", "cloth CFM", "flight s", "rate of descent m/s", "C_D0 on the axis", "C_D0 in descent", "Knacke", "agreement", "glide ratio",
                          "mean oscillation deg", "Knacke", "kind", "largest deg", "period s", "half-swings"], rows)
 
 
 def count_line(results):
     """How many families agree, of those for which a value is known."""
-    with_range = [r for name, r in results.items() if name in FAMILIES and agreement(r)]
+    flown = list(families_flown(results))
+    with_range = [r for _, _, r in flown if agreement(r)]
     close = sum(abs(beyond(r["descent_drag_coefficient"], *r["known_drag_coefficient"])) <= 0.05 for r in with_range)
-    angles = [(r["mean_oscillation_deg"], KNACKE_ANGLE[name]) for name, r in results.items()
-              if name in KNACKE_ANGLE and r["mean_oscillation_deg"] is not None]
+    angles = [(r["mean_oscillation_deg"], KNACKE_ANGLE[family]) for family, _, r in flown
+              if family in KNACKE_ANGLE and r["mean_oscillation_deg"] is not None]
     right = sum(kind_of(mean) == kind_known(angle) for mean, angle in angles)
     return (f"C_D0 in descent inside of Knacke's range or less than 5 % outside: {close} of {len(with_range)}. "
             f"Kind of oscillation as known: {right} of {len(angles)}.")
@@ -195,15 +203,14 @@ def force_balance(folder, area, density):
 
 def balance_table(options, results):
     rows = []
-    for name in FAMILIES:
-        if name not in results or results[name]["descent_drag_coefficient"] is None:
+    for name, r in results.items():
+        if r["descent_drag_coefficient"] is None:
             continue
-        r = results[name]
         mean = force_balance(folder_of(options, name), r["reference_area_m2"], r["density_kg_m3"])
         whole = r["descent_drag_coefficient"] * (r["rate_of_descent_m_s"] / mean["descent"]) ** 2
         rows.append([name, f"{mean['angle']:.0f}", f"{r['axial_drag_coefficient']:.3f}", f"{mean['along']:.3f}",
                      f"{mean['ratio']:.3f}", f"{whole:.3f}", f"{mean['mouth']:.2f}", f"{r['start_up_time_s']:.0f}", f"{100 * r['energy_residual']:.3f}", f"{100 * r['momentum_residual']:.3f}", f"{r['load_factor']:.2f}"])
-    return tables.table(["family", "mean angle of attack deg", "C_T on the axis", "C_T in flight", "(V / V_v)^2",
+    return tables.table(["flight", "mean angle of attack deg", "C_T on the axis", "C_T in flight", "(V / V_v)^2",
                          f"C_D0 from {BEGIN_S} s on", "mouth area / start", "start-up s", "energy residual %", "momentum residual %", "load factor"], rows)
 
 
