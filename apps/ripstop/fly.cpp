@@ -192,6 +192,9 @@ void add_fly(CLI::App& app, int& status) {
                  options->overrides);
   add_key_option(*command, "--duration", "flight.duration_s", "Longest time of flight [s]",
                  options->overrides);
+  add_key_option(*command, "--until-error", "flight.standard_error",
+                 "End at this relative standard error of the rate of descent, after ten periods",
+                 options->overrides);
   add_key_option(*command, "--cloth-nodes", "parachute.mesh.cloth_nodes", "Target number of cloth nodes",
                  options->overrides);
   add_key_option(*command, "--angle", "flight.angle_deg",

@@ -39,6 +39,20 @@ TEST(FlightSummary, PlaneSwingHasItsAmplitudeItsPeriodAndNoRoundness) {
   EXPECT_NEAR(s.peaks, 2 * (50 - s.start_up) / period, 2);
 }
 
+// The plane turns once in eight periods.
+TEST(FlightSummary, SwingInATurningPlaneHasItsAmplitudeAndItsPeriod) {
+  std::vector<FreeFlightRow> rows = swing(20, 0, 50);
+  for (FreeFlightRow& row : rows) {
+    const double turned = 2 * std::numbers::pi * row.time / (8 * period), tilt = row.tilt_x;
+    row.tilt_x = tilt * std::cos(turned), row.tilt_y = tilt * std::sin(turned);
+  }
+  const FlightSummary s = summarise_flight(rows);
+  ASSERT_TRUE(s.oscillation && s.period);
+  EXPECT_NEAR(s.oscillation->mean, 20, 0.01);
+  EXPECT_NEAR(s.period->mean, period, 0.01);
+  EXPECT_NEAR(s.peaks, 2 * (50 - s.start_up) / period, 2);
+}
+
 TEST(FlightSummary, ConicalMotionHasARoundnessOfOneAndAConstantAngle) {
   const FlightSummary s = summarise_flight(swing(15, 15, 50));
   ASSERT_TRUE(s.oscillation && s.roundness);
@@ -53,6 +67,19 @@ TEST(FlightSummary, GlideIsMeasuredRelativeToTheWind) {
   EXPECT_NEAR(s.glide.mean, drift / descent, 0.01);
   ASSERT_TRUE(s.descent.standard_error);
   EXPECT_LT(*s.descent.standard_error, 0.05);
+}
+
+// The start-up ends where the faster motion does. Half of that is added to the mean of the rest: 10 s of 40 s.
+TEST(FlightSummary, MotionThatChangesLateHasALargerStandardError) {
+  constexpr double faster = 0.4, until = 20;
+  std::vector<FreeFlightRow> rows = swing(10, 0, 50);
+  for (FreeFlightRow& row : rows)
+    if (row.time <= until) row.velocity.z -= faster;
+  const FlightSummary s = summarise_flight(rows);
+  EXPECT_NEAR(s.start_up, until, 1);
+  EXPECT_NEAR(s.descent.mean, descent, 0.02);
+  ASSERT_TRUE(s.descent.standard_error);
+  EXPECT_NEAR(*s.descent.standard_error, faster * 10 / 40, 0.02);
 }
 
 TEST(FlightSummary, TooShortAFlightIsRefusedOrHasNoPeriod) {

@@ -129,6 +129,32 @@ TEST(FreeFlight, WithoutDragItFallsFreely) {
   EXPECT_LT(flight.balance(state, row).momentum_residual, 1e-6);
 }
 
+// In the first step the drag of the payload is that of its velocity relative to the wind.
+TEST(FreeFlight, PayloadIsDraggedAlongByTheWind) {
+  FlightProblem given = problem(6, 1e-9);
+  given.payload_drag_area = 0.5;
+  given.settings.velocity_m_s = Vec3{0, 0, -6};
+  given.settings.wind.speed_m_s = 4;
+  FreeFlight flight(std::move(given));
+  FreeFlightState state = flight.start();
+  const FreeFlightRow row = flight.advance(state);
+  const double on_speed = 0.5 * 1.2 * 0.5 * std::hypot(4, 6), weight = flight.mass() * gravity;
+  EXPECT_NEAR(row.payload_drag, on_speed * std::hypot(4, 6), 1e-6);
+  EXPECT_NEAR(norm(state.impulse / row.time - Vec3{4 * on_speed, 0, 6 * on_speed - weight}), 0, 1e-6);
+  EXPECT_LT(flight.balance(state, row).momentum_residual, 1e-6);
+}
+
+// Springs that are stretched at the start come to rest, with nothing but their own dampers.
+TEST(FreeFlight, VibrationsOfTheMeshAreDamped) {
+  FlightProblem given = problem(6, 1e-9);
+  for (Vec3& p : given.shape) p = 1.001 * p;
+  FreeFlight flight(std::move(given));
+  FreeFlightState state = flight.start();
+  while (state.coupled.cloth.time < 0.02) flight.advance(state);
+  EXPECT_GT(state.elastic_at_start, 0.01);
+  EXPECT_LT(elastic_energy(flight.cloth(), state.coupled.cloth), 0.01 * state.elastic_at_start);
+}
+
 TEST(FreeFlight, RefusesAPayloadWithoutMassAndSeveralPayloads) {
   FlightProblem weightless = problem(6, linear);
   weightless.payload_mass = 0;

@@ -22,10 +22,14 @@ Record record_of(const std::vector<FreeFlightRow>& rows,
   return record;
 }
 
+/// The standard error is at least the change of the mean if the start-up had ended in half the time: a canopy that
+/// changes from swinging to gliding may do so within that part of the record which counts as start-up.
 MeanWithError estimate_of(const Record& record, double from) {
   const MeanOverTime mean = mean_over_time(record, from);
   MeanWithError estimate{mean.mean, {}};
-  if (std::isfinite(mean.standard_error)) estimate.standard_error = mean.standard_error;
+  if (!std::isfinite(mean.standard_error)) return estimate;
+  const double earlier = means_over_parts(record, 0.5 * (record.begin + from), 1).front();
+  estimate.standard_error = std::max(mean.standard_error, std::abs(earlier - mean.mean));
   return estimate;
 }
 
@@ -66,11 +70,16 @@ Principal principal_of(const std::vector<FreeFlightRow>& rows, double from) {
   return p;
 }
 
-/// Between two passages of the mean lies one half-swing; its peak is the largest angle from the vertical in it.
 struct Swings {
   std::vector<double> peaks, periods;  // [deg], [s]
+
+  void take_periods(const std::vector<double>& times) {  // of events, two of them a period
+    for (std::size_t i = 2; i < times.size(); ++i) periods.push_back(times[i] - times[i - 2]);
+  }
 };
-Swings swings_of(const std::vector<FreeFlightRow>& rows, double from, const Principal& p) {
+
+/// Between two passages of the mean lies one half-swing; its peak is the largest angle from the vertical in it.
+Swings swings_about_mean(const std::vector<FreeFlightRow>& rows, double from, const Principal& p) {
   Swings swings;
   const double threshold = hysteresis * p.deviation;
   std::vector<double> passed;  // times
@@ -89,8 +98,35 @@ Swings swings_of(const std::vector<FreeFlightRow>& rows, double from, const Prin
     side = now;
     peak = std::max(peak, r.angle);
   }
-  for (std::size_t i = 2; i < passed.size(); ++i) swings.periods.push_back(passed[i] - passed[i - 2]);
+  swings.take_periods(passed);
   return swings;
+}
+
+/// Each maximum of the angle from the vertical is one half-swing, in whatever plane, if the angle rises to it and falls
+/// from it by the threshold.
+Swings swings_of_angle(const std::vector<FreeFlightRow>& rows, double from, const Principal& p) {
+  Swings swings;
+  const double threshold = hysteresis * p.deviation;
+  std::vector<double> times;
+  bool rising = false;
+  double extreme = 0, when = 0;
+  bool first = true;
+  for (const FreeFlightRow& r : rows) {
+    if (r.time <= from) continue;
+    if (first || (rising ? r.angle > extreme : r.angle < extreme)) extreme = r.angle, when = r.time;
+    first = false;
+    if (std::abs(r.angle - extreme) <= threshold) continue;
+    if (rising) swings.peaks.push_back(extreme), times.push_back(when);
+    rising = !rising, extreme = r.angle, when = r.time;
+  }
+  swings.take_periods(times);
+  return swings;
+}
+
+/// The plane of a swing may change, and a cone has no maxima: the count that sees more of them.
+Swings swings_of(const std::vector<FreeFlightRow>& rows, double from, const Principal& p) {
+  const Swings about_mean = swings_about_mean(rows, from, p), of_angle = swings_of_angle(rows, from, p);
+  return of_angle.peaks.size() > about_mean.peaks.size() ? of_angle : about_mean;
 }
 
 }  // namespace

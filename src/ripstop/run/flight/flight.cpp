@@ -28,6 +28,8 @@ namespace fs = std::filesystem;
 // How often the standard error is looked at, and so many half-swings it needs at least: ten periods.
 constexpr double look_every = 1;  // [s]
 constexpr int least_half_swings = 20;
+// A start-up longer than this share of the flight is a flight whose motion still changes.
+constexpr double longest_start_up = 1.0 / 3;
 constexpr int shots_on_sheet = 8;
 
 /// The equilibrium on the axis; saves its flow.
@@ -145,11 +147,17 @@ void take_quality(FlightResult& r, const Settings& resolved) {
   if (failed(r.ended_by)) {
     r.warnings.push_back(r.ended_by + "; no mean is given");
     judgement.usable = false;
-  } else if (r.peaks < least_half_swings) {
-    r.warnings.push_back(
-        fmt::format("the means are over {} half-swings; ten periods (20) or more are needed: take a "
-                    "longer flight (flight.duration_s)",
-                    r.peaks));
+  } else {
+    if (r.peaks < least_half_swings)
+      r.warnings.push_back(
+          fmt::format("the means are over {} half-swings; ten periods (20) or more are needed: take a "
+                      "longer flight (flight.duration_s)",
+                      r.peaks));
+    if (r.start_up > longest_start_up * r.duration)
+      r.warnings.push_back(fmt::format(
+          "the start-up takes {:.3g} s of {:.3g} s: the motion still changes, and the means depend on "
+          "the duration; take a longer flight (flight.duration_s)",
+          r.start_up, r.duration));
   }
   r.usable = judgement.usable;
 }
