@@ -121,6 +121,9 @@ CutPattern cut_pattern(const GorePattern& pattern, const Design& design) {
     const double vent = pattern.strips.back().stations.back().chord / std::sin(pi / n);
     cut.lines.push_back({"vent line", design.lines.count / 2, vent});
   }
+  if (pattern.apex_line_ratio > 0)
+    cut.lines.push_back(
+        {"apex line", design.lines.count, pattern.apex_line_ratio * design.lines.length_m});
   return cut;
 }
 

@@ -47,7 +47,7 @@ struct CutPattern {
   std::vector<Piece> pieces;
   std::vector<CutLength> tapes;
   double line_on_canopy = 0;     // length of every line beyond the skirt [m]
-  std::vector<CutLength> lines;  // vent lines
+  std::vector<CutLength> lines;  // vent lines, apex lines
 };
 
 /// Extra cloth, tape and line beyond the finished size [m].

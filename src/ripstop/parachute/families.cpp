@@ -1,4 +1,5 @@
 // The list of canopy families, in the order of the reference.
+#include "ripstop/parachute/annular.h"
 #include "ripstop/parachute/conical.h"
 #include "ripstop/parachute/cross.h"
 #include "ripstop/parachute/disk_gap_band.h"
@@ -16,7 +17,8 @@ const Families& families() {
   static const Families list = {
       &DiskGapBand::family, &FlatCircular::family,  &Conical::family,
       &Spherical::family,   &ExtendedSkirt::family, &Ringslot::family,
-      &Ringsail::family,    &Cross::family,         &ProfileCanopy::family,
+      &Ringsail::family,    &Annular::family,       &Cross::family,
+      &ProfileCanopy::family,
   };
   return list;
 }
