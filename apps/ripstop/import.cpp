@@ -86,10 +86,10 @@ int run(const ImportArguments& options) {
 
 void add_import(CLI::App& app, int& status) {
   auto options = std::make_shared<ImportArguments>();
-  CLI::App* command = app.add_subcommand(
-      "import",
-      "Convert a design of openchute (.chute) or a parachute of OpenRocket (.ork, .orc) to a case file and list "
-      "converted, changed and omitted parts");
+  CLI::App* command = app.add_subcommand("import",
+                                         "Convert a design of openchute (.chute) or a parachute of "
+                                         "OpenRocket (.ork, .orc) to a case file and list "
+                                         "converted, changed and omitted parts");
   command->footer(
       "Examples:\n"
       "  ripstop import examples/elliptical/elliptical.chute --out elliptical.toml\n"
@@ -100,17 +100,19 @@ void add_import(CLI::App& app, int& status) {
   command->add_flag("--force", options->force, "Replace an existing case file");
   add_number(*command, "--lines", options->line_count, key_range("parachute.lines.count"),
              "Number of lines (default: that of the file, or one per gore)");
-  add_number(*command, "--line-length", options->line_length, key_range("parachute.lines.length_m"),
-             "Length of a line [m] (default: that of the file, or the nominal diameter, 1.15 of it for OpenRocket)");
+  add_number(
+      *command, "--line-length", options->line_length, key_range("parachute.lines.length_m"),
+      "Length of a line [m] (default: that of the file, or the nominal diameter, 1.15 of it for OpenRocket)");
   add_number(*command, "--vent-diameter", options->vent_diameter, from(1e-4).up_to(100),
              "Diameter of the vent [m] (default: that of the file; else 4 % of the widest diameter, 10 % for "
              "OpenRocket)");
   command->add_option("--device", options->device,
                       "OpenRocket: number or name of the parachute (default: the only one)");
   command
-      ->add_option("--diameter-is", options->diameter_is,
-                   "OpenRocket: meaning of the diameter, \"constructed\" (cloth laid flat) or \"projected\" (open "
-                   "canopy, with C_D on its area)")
+      ->add_option(
+          "--diameter-is", options->diameter_is,
+          "OpenRocket: meaning of the diameter, \"constructed\" (cloth laid flat) or \"projected\" (open "
+          "canopy, with C_D on its area)")
       ->check(CLI::IsMember({"constructed", "projected"}));
   add_number(*command, "--mass", options->payload_mass, key_range("payload.mass_kg"),
              "OpenRocket: mass to be recovered [kg] (default: that of a stored simulation)");

@@ -25,22 +25,6 @@ using std::numbers::pi;
 
 constexpr double same = 1e-6;  // [m]
 
-/// Quoted as TOML has it, without control characters.
-std::string toml_quoted(const std::string& text, std::size_t longest) {
-  std::string whole = visible_line(text);
-  if (whole.size() > longest) {
-    whole.resize(longest);
-    // A cut inside a character of several bytes would not be UTF-8.
-    while (!whole.empty() && (static_cast<unsigned char>(whole.back()) & 0x80)) whole.pop_back();
-  }
-  std::string result;
-  for (const char c : whole) {
-    if (c == '"' || c == '\\') result += '\\';
-    result += c;
-  }
-  return '"' + result + '"';
-}
-
 std::string list(const std::vector<double>& values) {
   std::vector<std::string> texts;
   for (const double value : values) texts.push_back(fmt::format("{:.9g}", value));
@@ -437,7 +421,7 @@ std::string first_problem(const ImportedCase& made) {
 }  // namespace
 
 ImportedCase import_chute(const ChuteFile& file, const ChuteImportOptions& options,
-                         const std::string& source) {
+                          const std::string& source) {
   ImportedCase direct = Importer(file, options, source).run();
   const std::string problem = first_problem(direct);
   if (problem.empty()) return direct;

@@ -22,6 +22,7 @@ struct ChuteImportOptions {
 /// Everything else becomes a `profile` that is cut as openchute cuts it: gores 2 pi r / N wide. `source` names the
 /// file in the case. Throws Error(bad_data) with the place for shapes that cannot be converted: polygonal sections of
 /// different numbers of gores, two gores, no room for a vent.
-ImportedCase import_chute(const ChuteFile& file, const ChuteImportOptions& options, const std::string& source);
+ImportedCase import_chute(const ChuteFile& file, const ChuteImportOptions& options,
+                          const std::string& source);
 
 }  // namespace ripstop

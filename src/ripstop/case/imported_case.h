@@ -1,6 +1,7 @@
 // A case that was converted from the file of another program, and a report on every part of that file.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -15,5 +16,8 @@ struct ImportedCase {
   std::vector<std::string> not_mapped;  // not in the case, and why
   std::vector<std::string> assumed;     // in the case, but not in the file
 };
+
+/// Quoted as TOML has it, without control characters, and cut at `longest` bytes.
+std::string toml_quoted(const std::string& text, std::size_t longest);
 
 }  // namespace ripstop

@@ -39,10 +39,11 @@ class Reader {
     } else if (kind == "OpenRocketComponent") {
       read_database(root);
     } else {
-      refuse(line_of(root),
-             fmt::format("begins with <{}>, which is neither a design (<openrocket>) nor a component database "
-                         "(<OpenRocketComponent>) of OpenRocket",
-                         visible_line(kind)));
+      refuse(
+          line_of(root),
+          fmt::format("begins with <{}>, which is neither a design (<openrocket>) nor a component database "
+                      "(<OpenRocketComponent>) of OpenRocket",
+                      visible_line(kind)));
     }
     return std::move(file_);
   }
@@ -199,8 +200,8 @@ class Reader {
       file_.devices.push_back(std::move(d));
     }
   }
-  std::optional<double> density_of(const pugi::xml_node& root, const std::string& name,
-                                   std::string_view type, const std::string& unit) const {
+  std::optional<double> density_of(const pugi::xml_node& root, const std::string& name, std::string_view type,
+                                   const std::string& unit) const {
     for (const pugi::xml_node material : root.child("Materials").children("Material")) {
       if (text_of(material, "Name") != name || text_of(material, "Type") != type) continue;
       const pugi::xml_node density = material.child("Density");

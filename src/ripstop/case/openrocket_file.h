@@ -19,14 +19,14 @@ struct RecoveryDevice {
   bool automatic = false;                  // "auto"
   std::optional<double> spill_hole;        // diameter [m]; an extension that some programs write
   std::optional<int> sides, line_count;
-  std::optional<double> line_length;                   // [m]
-  std::string cloth, line_material;                    // names
-  std::optional<double> cloth_density, line_density;   // [kg/m2], [kg/m]
-  std::optional<double> mass;                          // of the device [kg]
-  std::string event;                                   // "apogee", "altitude", "ejection", ...; empty: none
-  std::optional<double> altitude, delay;               // above ground [m]; after the event [s]
-  std::optional<double> descent_mass;                  // of its stage at the end of a stored simulation [kg]
-  std::string simulation;                              // its name
+  std::optional<double> line_length;                  // [m]
+  std::string cloth, line_material;                   // names
+  std::optional<double> cloth_density, line_density;  // [kg/m2], [kg/m]
+  std::optional<double> mass;                         // of the device [kg]
+  std::string event;                                  // "apogee", "altitude", "ejection", ...; empty: none
+  std::optional<double> altitude, delay;              // above ground [m]; after the event [s]
+  std::optional<double> descent_mass;                 // of its stage at the end of a stored simulation [kg]
+  std::string simulation;                             // its name
 };
 
 struct OpenRocketFile {

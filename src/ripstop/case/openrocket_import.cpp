@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "ripstop/core/error.h"
-#include "ripstop/core/toml/write.h"
 #include "ripstop/core/units.h"
 #include "ripstop/core/visible.h"
 
@@ -49,8 +48,8 @@ class Importer {
     result_.case_text = head() + canopy() + lines() + materials() + flight();
     for (const std::string& note : file_.notes) result_.not_mapped.push_back(note);
     if (d_.mass)
-      result_.not_mapped.push_back(
-          fmt::format("mass of the parachute, {:.4g} kg: Ripstop computes it from cloth, lines and seams", *d_.mass));
+      result_.not_mapped.push_back(fmt::format(
+          "mass of the parachute, {:.4g} kg: Ripstop computes it from cloth, lines and seams", *d_.mass));
     result_.not_mapped.push_back("packed size, position in the rocket, and all other components");
     return std::move(result_);
   }
@@ -87,10 +86,10 @@ class Importer {
     nominal_ = *d_.diameter;
     if (options_.diameter == GivenDiameter::projected) {
       nominal_ /= projected_ratio;
-      result_.changed.push_back(
-          fmt::format("projected diameter {:.4g} m: nominal diameter {:.4g} m, with the ratio {:.2f} of an open "
-                      "flat circular canopy",
-                      *d_.diameter, nominal_, projected_ratio));
+      result_.changed.push_back(fmt::format(
+          "projected diameter {:.4g} m: nominal diameter {:.4g} m, with the ratio {:.2f} of an open "
+          "flat circular canopy",
+          *d_.diameter, nominal_, projected_ratio));
     } else {
       mapped("diameter {:.4g} m: that of the cloth laid flat", nominal_);
     }
@@ -110,7 +109,8 @@ class Importer {
 
   std::string vent() {
     const double given = options_.vent_diameter.value_or(d_.spill_hole.value_or(0));
-    if (given >= nominal_) refuse(fmt::format("has a spill hole of {:.4g} m, not smaller than its canopy", given));
+    if (given >= nominal_)
+      refuse(fmt::format("has a spill hole of {:.4g} m, not smaller than its canopy", given));
     if (given > 0) {
       if (!options_.vent_diameter) mapped("spill hole {:.4g} m", given);
       return fmt::format("vent_diameter_m = {:.9g}\n", given);
@@ -134,8 +134,9 @@ class Importer {
     const bool given = d_.line_length.value_or(0) > 0;
     const double length = options_.line_length.value_or(given ? *d_.line_length : 1.15 * nominal_);
     if (length <= 0.5 * nominal_)
-      refuse(fmt::format("has lines of {:.4g} m, too short to meet under a canopy of {:.4g} m; use --line-length",
-                         length, nominal_));
+      refuse(fmt::format(
+          "has lines of {:.4g} m, too short to meet under a canopy of {:.4g} m; use --line-length", length,
+          nominal_));
     if (!options_.line_length && given) mapped("lines of {:.4g} m", length);
     if (!options_.line_length && !given) assumed("lines of 1.15 nominal diameters (--line-length)");
     std::string text = fmt::format("\n[parachute.lines]\ncount = {}\nlength_m = {:.9g}\n", count, length);
@@ -149,18 +150,20 @@ class Importer {
     const auto add = [&](const char* name, const char* base, const char* kind, const std::string& given,
                          double density, const char* key, const char* unit) {
       text += fmt::format(
-          "\n[materials.{}]\nbase = \"{}\"  # assumed: the file has name and mass only\nsource = {}\n{} = {:.9g}\n",
+          "\n[materials.{}]\nbase = \"{}\"  # assumed: the file has name and mass only\nsource = {}\n{} = "
+          "{:.9g}\n",
           name, base,
-          toml_quoted(fmt::format("mass of \"{}\" in the file of OpenRocket; all other properties assumed as {}",
-                                  given, base),
-                      400),
+          toml_quoted(
+              fmt::format("mass of \"{}\" in the file of OpenRocket; all other properties assumed as {}",
+                          given, base),
+              400),
           key, density);
       mapped("{} \"{}\", {:.4g} {}", kind, visible_line(given), density, unit);
       assumed("stiffness and strength of the {}: those of {}", kind, base);
     };
     if (d_.cloth_density)
-      add("imported-cloth", "pia-c-44378-type-iv", "cloth", d_.cloth, *d_.cloth_density, "areal_density_kg_m2",
-          "kg/m2");
+      add("imported-cloth", "pia-c-44378-type-iv", "cloth", d_.cloth, *d_.cloth_density,
+          "areal_density_kg_m2", "kg/m2");
     else
       assumed("cloth: the default material, because the file has no density of a cloth");
     if (d_.line_density)
@@ -188,26 +191,30 @@ class Importer {
              *d_.drag_coefficient, drag_area / *d_.drag_coefficient, drag_area, coefficient, nominal_area);
       if (coefficient > largest_on_nominal)
         result_.changed.push_back(fmt::format(
-            "C_D {:.4g} on the area of the cloth is larger than that of any parachute of the handbook (0.95): it is "
+            "C_D {:.4g} on the area of the cloth is larger than that of any parachute of the handbook "
+            "(0.95): it is "
             "probably on the projected area; import with --diameter-is projected, or correct the case",
             coefficient));
       if (mass) speed = std::sqrt(2 * *mass * standard_gravity / (usual_density * drag_area));
     } else {
-      result_.not_mapped.push_back(d_.automatic ? "C_D \"auto\": OpenRocket's own value is used there; compute it with "
-                                                  "ripstop steady"
-                                                : "no C_D in the file; compute it with ripstop steady");
+      result_.not_mapped.push_back(
+          d_.automatic ? "C_D \"auto\": OpenRocket's own value is used there; compute it with "
+                         "ripstop steady"
+                       : "no C_D in the file; compute it with ripstop steady");
     }
     if (mass)
       text += fmt::format("\n[payload]\nmass_kg = {:.9g}\n", *mass);
     else
       assumed("no payload: the file has no stored simulation with a mass (--mass)");
-    text += fmt::format("\n[flow]  # assumed\nspeed_m_s = {:.4g}\ndensity_kg_m3 = {:g}\n", speed, usual_density);
+    text +=
+        fmt::format("\n[flow]  # assumed\nspeed_m_s = {:.4g}\ndensity_kg_m3 = {:g}\n", speed, usual_density);
     if (mass && d_.drag_coefficient)
       assumed("flow: the rate of descent with this C_D, {:.3g} m/s, at {:g} kg/m3", speed, usual_density);
     else
       assumed("flow: {:g} m/s at {:g} kg/m3", speed, usual_density);
     if (coefficient > 0)
-      text += fmt::format("\n[inflation]\ndrag_coefficient = {:.9g}  # on S0, for ripstop load\n", coefficient);
+      text +=
+          fmt::format("\n[inflation]\ndrag_coefficient = {:.9g}  # on S0, for ripstop load\n", coefficient);
     return text;
   }
 
@@ -234,12 +241,13 @@ const RecoveryDevice& choose_device(const OpenRocketFile& file, const std::strin
     if (wanted.empty() ? !d.streamer : d.name == wanted) found = &d, ++fitting;
   if (fitting == 1) return *found;
   if (fitting == 0 && wanted.empty()) return file.devices.front();  // streamers only
-  throw Error(ExitCode::usage,
-              fmt::format("{}; choose one by its number with --device:{}",
-                          wanted.empty()  ? fmt::format("the file has {} recovery devices", file.devices.size())
-                          : fitting == 0 ? fmt::format("--device {}: no such recovery device", wanted)
-                                         : fmt::format("--device {}: {} devices have this name", wanted, fitting),
-                          list_of(file)));
+  throw Error(
+      ExitCode::usage,
+      fmt::format("{}; choose one by its number with --device:{}",
+                  wanted.empty() ? fmt::format("the file has {} recovery devices", file.devices.size())
+                  : fitting == 0 ? fmt::format("--device {}: no such recovery device", wanted)
+                                 : fmt::format("--device {}: {} devices have this name", wanted, fitting),
+                  list_of(file)));
 }
 
 ImportedCase import_openrocket(const OpenRocketFile& file, const RecoveryDevice& device,

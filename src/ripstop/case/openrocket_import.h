@@ -16,10 +16,11 @@ enum class GivenDiameter { constructed, projected };
 /// Data that the file does not contain.
 struct OpenRocketImportOptions {
   GivenDiameter diameter = GivenDiameter::constructed;
-  std::optional<int> line_count;        // absent: the file's
-  std::optional<double> line_length;    // [m]; absent: the file's, or 1.15 nominal diameters (assumed)
-  std::optional<double> vent_diameter;  // [m]; absent: the file's spill hole, or a tenth of the nominal diameter
-  std::optional<double> payload_mass;   // [kg]; absent: that of a stored simulation
+  std::optional<int> line_count;      // absent: the file's
+  std::optional<double> line_length;  // [m]; absent: the file's, or 1.15 nominal diameters (assumed)
+  std::optional<double>
+      vent_diameter;  // [m]; absent: the file's spill hole, or a tenth of the nominal diameter
+  std::optional<double> payload_mass;  // [kg]; absent: that of a stored simulation
 };
 
 /// The device that `wanted` names: its number in the list, counted from 1, or its name. Empty: the only parachute of

@@ -27,8 +27,8 @@ std::string unpack(const std::filesystem::path& path, std::size_t limit, const R
     if (count < 0) refuse_archive(path, "the compressed data are damaged");
     if (count == 0) return text;
     if (text.size() + static_cast<std::size_t>(count) > limit)
-      refuse_archive(path, fmt::format("unpacks to more than {} MiB; a design of OpenRocket is smaller",
-                                       limit >> 20));
+      refuse_archive(
+          path, fmt::format("unpacks to more than {} MiB; a design of OpenRocket is smaller", limit >> 20));
     text.append(buffer.data(), static_cast<std::size_t>(count));
   }
 }
@@ -64,8 +64,7 @@ std::string unzip(const std::filesystem::path& path, std::size_t limit) {
 std::string gunzip(const std::filesystem::path& path, std::size_t limit) {
   const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(path.c_str(), "rb"), gzclose);
   if (!file) refuse_archive(path, "cannot be opened");
-  return unpack(path, limit,
-                [&](char* buffer, unsigned size) { return gzread(file.get(), buffer, size); });
+  return unpack(path, limit, [&](char* buffer, unsigned size) { return gzread(file.get(), buffer, size); });
 }
 
 }  // namespace

@@ -52,12 +52,14 @@ void describe(Fields& fields, Annular& canopy) {
       .number("vent_diameter_m", canopy.vent_diameter_m, above(0).up_to(100),
               "Constructed diameter of the inner edge (the vent).")
       .required();
-  fields.number("crown_ratio", canopy.crown_ratio, from(0.1).up_to(2),
-                "Height of the crown above both edges over half the width of the ring, as cut: 1 for a meridian "
-                "that is half a circle, less for a flatter one (assumed).");
-  fields.number("apex_line_ratio", canopy.apex_line_ratio, from(0.3).up_to(1.5),
-                "Length of the apex lines, from the confluence to the edge of the vent, over the length of the "
-                "suspension lines. There is one for every suspension line, of the same material (assumed).");
+  fields.number(
+      "crown_ratio", canopy.crown_ratio, from(0.1).up_to(2),
+      "Height of the crown above both edges over half the width of the ring, as cut: 1 for a meridian "
+      "that is half a circle, less for a flatter one (assumed).");
+  fields.number(
+      "apex_line_ratio", canopy.apex_line_ratio, from(0.3).up_to(1.5),
+      "Length of the apex lines, from the confluence to the edge of the vent, over the length of the "
+      "suspension lines. There is one for every suspension line, of the same material (assumed).");
 }
 
 void check_shape(const Annular& canopy, const Design& design, Findings& findings) {
