@@ -22,7 +22,7 @@ set(CPACK_COMPONENT_PYTHON_DESCRIPTION "subsonic parachutes: Python package
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libripstop-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "ripstop, pkg-config, libfmt-dev, libtomlplusplus-dev, libpng-dev, zlib1g-dev, libhwy-dev, libcairo2-dev, libxxhash-dev, libnlopt-dev")
+  "ripstop, pkg-config, libfmt-dev, libtomlplusplus-dev, libpng-dev, zlib1g-dev, libhwy-dev, libcairo2-dev, libxxhash-dev, libnlopt-dev, libpugixml-dev, libminizip-dev")
 if(RIPSTOP_PYTHON)
   list(APPEND CPACK_COMPONENTS_ALL python)
   math(EXPR python_next "${Python3_VERSION_MINOR} + 1")

@@ -6,7 +6,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace ripstop;
   fuzz::told([&] {
-    const ChuteImport result = import_chute(read_chute(fuzz::text(data, size), "x.chute"), {}, "x.chute");
+    const ImportedCase result = import_chute(read_chute(fuzz::text(data, size), "x.chute"), {}, "x.chute");
     parse_case(result.case_text, "x.toml");
   });
   return 0;

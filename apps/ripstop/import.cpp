@@ -10,6 +10,7 @@
 #include "number_option.h"
 #include "ripstop/case/case.h"
 #include "ripstop/case/chute_import.h"
+#include "ripstop/case/openrocket_import.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/visible.h"
 
@@ -22,7 +23,14 @@ struct ImportArguments {
   fs::path file;
   fs::path out;  // empty: the file's name with .toml, here
   bool force = false;
-  ChuteImportOptions import;
+  std::optional<int> line_count;
+  std::optional<double> line_length, vent_diameter, payload_mass;  // [m], [m], [kg]
+  std::string device, diameter_is = "constructed";
+};
+
+struct Imported {
+  std::string name;
+  ImportedCase result;
 };
 
 void print_list(const char* title, const std::vector<std::string>& sentences) {
@@ -31,14 +39,37 @@ void print_list(const char* title, const std::vector<std::string>& sentences) {
   for (const std::string& sentence : sentences) fmt::print("  - {}\n", visible_line(sentence));
 }
 
+Imported from_openrocket(const ImportArguments& options) {
+  const OpenRocketFile file = read_openrocket(options.file);
+  const RecoveryDevice& device = choose_device(file, options.device);
+  OpenRocketImportOptions import;
+  import.diameter =
+      options.diameter_is == "projected" ? GivenDiameter::projected : GivenDiameter::constructed;
+  import.line_count = options.line_count, import.line_length = options.line_length;
+  import.vent_diameter = options.vent_diameter, import.payload_mass = options.payload_mass;
+  return {device.name, import_openrocket(file, device, import, options.file.filename().string())};
+}
+
+Imported from_chute(const ImportArguments& options) {
+  if (!options.device.empty() || options.payload_mass || options.diameter_is != "constructed")
+    throw Error(ExitCode::usage,
+                "--device, --mass and --diameter-is are for files of OpenRocket (.ork, .orc) only");
+  const ChuteFile file = read_chute(read_file(options.file), options.file.string());
+  ChuteImportOptions import;
+  import.line_count = options.line_count, import.line_length = options.line_length;
+  import.vent_diameter = options.vent_diameter;
+  return {file.name, import_chute(file, import, options.file.filename().string())};
+}
+
 int run(const ImportArguments& options) {
   const fs::path out = options.out.empty() ? fs::path(options.file.stem().string() + ".toml") : options.out;
   if (fs::exists(out) && !options.force)
     throw Error(ExitCode::usage,
                 fmt::format("{} exists; choose another --out, or replace it with --force", out.string()));
-  const ChuteFile file = read_chute(read_file(options.file), options.file.string());
-  const ChuteImport result = import_chute(file, options.import, options.file.filename().string());
-  fmt::print("{} ({}): type = \"{}\"\n", visible_line(file.name), options.file.string(), result.type);
+  const std::string kind = options.file.extension().string();
+  const bool openrocket = kind == ".ork" || kind == ".orc";
+  const auto [name, result] = openrocket ? from_openrocket(options) : from_chute(options);
+  fmt::print("{} ({}): type = \"{}\"\n", visible_line(name), options.file.string(), result.type);
   print_list("converted", result.mapped);
   print_list("converted with a change", result.changed);
   print_list("not converted", result.not_mapped);
@@ -55,19 +86,36 @@ int run(const ImportArguments& options) {
 
 void add_import(CLI::App& app, int& status) {
   auto options = std::make_shared<ImportArguments>();
-  CLI::App* command = app.add_subcommand(
-      "import",
-      "Convert a .chute file of openchute to a case file and list converted, changed and omitted parts");
-  command->footer("Example: ripstop import examples/elliptical/elliptical.chute --out elliptical.toml");
-  command->add_option("file", options->file, "Design of openchute (.chute)")->required();
+  CLI::App* command = app.add_subcommand("import",
+                                         "Convert a design of openchute (.chute) or a parachute of "
+                                         "OpenRocket (.ork, .orc) to a case file and list "
+                                         "converted, changed and omitted parts");
+  command->footer(
+      "Examples:\n"
+      "  ripstop import examples/elliptical/elliptical.chute --out elliptical.toml\n"
+      "  ripstop import rocket.ork --device Main --out main.toml");
+  command->add_option("file", options->file, "Design of openchute (.chute) or OpenRocket (.ork, .orc)")
+      ->required();
   command->add_option("--out", options->out, "Case file to write (default: name of the design with .toml)");
   command->add_flag("--force", options->force, "Replace an existing case file");
-  add_number(*command, "--lines", options->import.line_count, key_range("parachute.lines.count"),
-             "Number of lines (default: one per gore)");
-  add_number(*command, "--line-length", options->import.line_length, key_range("parachute.lines.length_m"),
-             "Length of a line [m] (default: the nominal diameter)");
-  add_number(*command, "--vent-diameter", options->import.vent_diameter, from(1e-4).up_to(100),
-             "Diameter of the vent where gores end in a point [m] (default: 4 % of the widest diameter)");
+  add_number(*command, "--lines", options->line_count, key_range("parachute.lines.count"),
+             "Number of lines (default: that of the file, or one per gore)");
+  add_number(
+      *command, "--line-length", options->line_length, key_range("parachute.lines.length_m"),
+      "Length of a line [m] (default: that of the file, or the nominal diameter, 1.15 of it for OpenRocket)");
+  add_number(*command, "--vent-diameter", options->vent_diameter, from(1e-4).up_to(100),
+             "Diameter of the vent [m] (default: that of the file; else 4 % of the widest diameter, 10 % for "
+             "OpenRocket)");
+  command->add_option("--device", options->device,
+                      "OpenRocket: number or name of the parachute (default: the only one)");
+  command
+      ->add_option(
+          "--diameter-is", options->diameter_is,
+          "OpenRocket: meaning of the diameter, \"constructed\" (cloth laid flat) or \"projected\" (open "
+          "canopy, with C_D on its area)")
+      ->check(CLI::IsMember({"constructed", "projected"}));
+  add_number(*command, "--mass", options->payload_mass, key_range("payload.mass_kg"),
+             "OpenRocket: mass to be recovered [kg] (default: that of a stored simulation)");
   command->callback([options, &status] { status = run(*options); });
 }
 

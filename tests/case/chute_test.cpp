@@ -30,7 +30,7 @@ std::string chute_text(const std::string& name) {
   return read_file(name == "elliptical" ? source / "examples/elliptical/elliptical.chute"
                                         : source / "tests/case/chute" / (name + ".chute"));
 }
-ChuteImport imported(const std::string& name, const ChuteImportOptions& options = {}) {
+ImportedCase imported(const std::string& name, const ChuteImportOptions& options = {}) {
   return import_chute(read_chute(chute_text(name), name), options, name);
 }
 bool says(const std::vector<std::string>& list, const std::string& words) {
@@ -72,7 +72,7 @@ TEST(Chute, TheShippedCaseIsTheOutputOfTheImport) {
 }
 
 TEST(Chute, DiskAndBandBecomeADiskGapBandOfTheSameSizes) {
-  const ChuteImport result = imported("disk-gap-band");
+  const ImportedCase result = imported("disk-gap-band");
   const Case given = parse_case(result.case_text, "case.toml");
   const auto& canopy = *given.parachute.canopy.as<DiskGapBand>();
   EXPECT_NEAR(canopy.disk_diameter_m, 1.2, 1e-9);
@@ -84,7 +84,7 @@ TEST(Chute, DiskAndBandBecomeADiskGapBandOfTheSameSizes) {
 }
 
 TEST(Chute, TwoGoresOfACylinderAreTheStripsOfACross) {
-  const ChuteImport result = imported("cross");
+  const ImportedCase result = imported("cross");
   const Case given = parse_case(result.case_text, "case.toml");
   EXPECT_NEAR(given.parachute.canopy.as<Cross>()->arm_length_m, 1.2, 1e-8);
   EXPECT_NEAR(given.parachute.canopy.as<Cross>()->arm_width_m, 0.4, 1e-8);
@@ -101,7 +101,7 @@ TEST(Chute, OneConeBecomesAConicalCanopyOfTheSameArea) {
   EXPECT_TRUE(says(import_chute(read_chute(text, "x"), {}, "x").mapped, "flat disk of 1.2 m"));
   const std::size_t inner = text.find("\"0\"", text.find("\"expressions\""));
   text.replace(inner, 3, "\"0.3\"");
-  const ChuteImport result = import_chute(read_chute(text, "x"), {}, "x");
+  const ImportedCase result = import_chute(read_chute(text, "x"), {}, "x");
   const Case cone = parse_case(result.case_text, "case.toml");
   ASSERT_TRUE(cone.parachute.canopy.as<Conical>());
   EXPECT_NEAR(computed_area(cone.parachute), pi * 0.654 * std::hypot(0.3, 0.546), 1e-8);
@@ -115,7 +115,7 @@ TEST(Chute, OneConeBecomesAConicalCanopyOfTheSameArea) {
 }
 
 TEST(Chute, SailsKeepTheirFullnessAndSlots) {
-  const ChuteImport result = imported("sails");
+  const ImportedCase result = imported("sails");
   const Case given = parse_case(result.case_text, "case.toml");
   const auto& canopy = *given.parachute.canopy.as<ProfileCanopy>();
   ASSERT_EQ(canopy.pieces.size(), 3u);
@@ -130,7 +130,7 @@ TEST(Chute, SailsKeepTheirFullnessAndSlots) {
 }
 
 TEST(Chute, NothingOfTheFileIsSilentlyLeftOut) {
-  const ChuteImport result = imported("odd");
+  const ImportedCase result = imported("odd");
   for (const char* words : {"ripples", "SlantAngle", "cuts: 1", "\"Heavy nylon\", 67", "seam-allowance 0.01",
                             "diameter: ignored, because openchute and Ripstop use the values of each section",
                             "global_seam_allowance", "colours"})
@@ -187,7 +187,7 @@ std::string with_first(std::string text, const std::string& from, const std::str
 
 TEST(Chute, AnArcHasAsManyPointsFromWhereverItsAnglesCount) {
   const auto points_of_first_piece = [](const std::string& text) {
-    const ChuteImport result = import_chute(read_chute(text, "odd"), {}, "odd");
+    const ImportedCase result = import_chute(read_chute(text, "odd"), {}, "odd");
     const Case given = parse_case(result.case_text, "case.toml");
     std::size_t most = 0;
     for (const ProfilePiece& piece : given.parachute.canopy.as<ProfileCanopy>()->pieces)
@@ -211,7 +211,7 @@ TEST(Chute, RoundPiecesAreCutAsTheGoresOfTheOthersWhicheverComesFirst) {
     sections[round]["gores"] = 8, sections[1 - round]["gores"] = 9;
     const Json line = sections[1 - round]["section_type"]["Circular"];
     sections[1 - round]["section_type"] = {{"Polygonal", {{"objects", {{{"Line", line}}}}}}};
-    const ChuteImport result = import_chute(read_chute(mixed.dump(), "mixed"), {}, "mixed");
+    const ImportedCase result = import_chute(read_chute(mixed.dump(), "mixed"), {}, "mixed");
     EXPECT_TRUE(says(result.changed, "gores = 8: cut as 9 gores, like the other pieces")) << round;
     EXPECT_EQ(parse_case(result.case_text, "case.toml").parachute.gores, 9) << round;
   }
@@ -229,7 +229,7 @@ TEST(Chute, TheMeshHasTheClothOfThePattern) {
 }
 
 TEST(Chute, GivenValuesReplaceAssumedOnes) {
-  const ChuteImport result = imported("odd", {.line_count = 18, .line_length = 2.5, .vent_diameter = 0.1});
+  const ImportedCase result = imported("odd", {.line_count = 18, .line_length = 2.5, .vent_diameter = 0.1});
   const Case given = parse_case(result.case_text, "case.toml");
   EXPECT_EQ(given.parachute.lines.count, 18);
   EXPECT_EQ(given.parachute.lines.length_m, 2.5);
@@ -379,7 +379,7 @@ TEST(Chute, ADiskAndABandWithoutAGapBecomeAProfile) {
   const double up = disk.points.front().y - std::max(band.points.front().y, band.points.back().y);
   ASSERT_GT(up, 0);
   for (MeridianPoint& p : band.points) p.y += up;
-  const ChuteImport result = import_chute(file, {}, "touching.chute");
+  const ImportedCase result = import_chute(file, {}, "touching.chute");
   EXPECT_EQ(result.type, "profile");
   EXPECT_TRUE(says(result.changed, "\"disk-gap-band\" cannot represent this shape"));
   const Case given = parse_case(result.case_text, "case.toml");
@@ -414,7 +414,7 @@ TEST(Chute, BrokenFilesAreRefused) {
     std::string changed = text;
     changed[i] = i % 2 ? '9' : '"';
     try {
-      const ChuteImport result = import_chute(read_chute(changed, "x"), {}, "x");
+      const ImportedCase result = import_chute(read_chute(changed, "x"), {}, "x");
       parse_case(result.case_text, "case.toml");
     } catch (const Error&) {
       ++refused;

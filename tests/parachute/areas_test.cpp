@@ -9,11 +9,13 @@
 #include "examples.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/case.h"
+#include "ripstop/parachute/annular.h"
 #include "ripstop/parachute/conical.h"
 #include "ripstop/parachute/cross.h"
 #include "ripstop/parachute/disk_gap_band.h"
 #include "ripstop/parachute/extended_skirt.h"
 #include "ripstop/parachute/flat_circular.h"
+#include "ripstop/parachute/polygon.h"
 #include "ripstop/parachute/profile.h"
 #include "ripstop/parachute/ringsail.h"
 #include "ripstop/parachute/ringslot.h"
@@ -107,6 +109,18 @@ Areas by_hand(const Design& design) {
   }
   if (const auto* c = design.canopy.as<Ringslot>()) return of_rings(*c);
   if (const auto* c = design.canopy.as<Ringsail>()) return of_sails(*c);
+  if (const auto* c = design.canopy.as<Annular>()) {  // half a torus, whose vent is not in S0
+    EXPECT_EQ(c->crown_ratio, 1);
+    const double mean = (c->outer_diameter_m + c->vent_diameter_m) / 4,
+                 half_width = (c->outer_diameter_m - c->vent_diameter_m) / 4;
+    const double cloth = 2 * pi * mean * pi * half_width;
+    return {cloth, cloth, disk(c->vent_diameter_m)};
+  }
+  if (const auto* c = design.canopy.as<Polygon>()) {
+    EXPECT_EQ(design.gores, 6);
+    const double whole = std::sqrt(3) / 2 * c->across_flats_m * c->across_flats_m;
+    return {whole, whole - disk(c->vent_diameter_m), disk(c->vent_diameter_m)};
+  }
   if (const auto* c = design.canopy.as<Cross>()) {
     const double cloth = 2 * c->arm_length_m * c->arm_width_m - c->arm_width_m * c->arm_width_m;
     return {cloth, cloth, 0};

@@ -11,6 +11,7 @@
 #include "ripstop/canopy/shape.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/case.h"
+#include "ripstop/parachute/annular.h"
 
 namespace ripstop {
 namespace {
@@ -67,6 +68,33 @@ TEST_P(InflatedShape, HasTheDiameterOfItsTypeAndTheSymmetryOfItsLines) {
     if (!folds) {
       EXPECT_LT(most_tension / least_tension - 1, 0.1);
     }
+  }
+}
+
+// The apex lines hold the edge of the vent at their length from the confluence, and shorter ones hold it lower and
+// take more of the load.
+TEST(Annular, ShorterApexLinesPullTheVentDownAndCarryMore) {
+  double height_before = 1e300, share_before = 0;
+  for (const double ratio : {1.0, 0.95, 0.9}) {
+    Case given = example("annular", 3000);
+    given.parachute.canopy.as<Annular>()->apex_line_ratio = ratio;
+    const CanopyMesh mesh = parachute_mesh(resolve(given));
+    const BlownUp canopy = blown_up(mesh, 240, 2e-3);
+    const std::vector<Vec3> x = canopy.positions();
+    const std::vector<double> tension = spring_tensions(*canopy.cloth, canopy.state);
+    double apex = 0, all = 0, height = 0;
+    for (const LineRun& line : mesh.rigging.lines) {
+      const double pull = tension[line.springs[2]] / line.axial_share;
+      all += pull;
+      if (!line.apex) continue;
+      apex += pull;
+      const Vec3 end = x[mesh.springs[line.springs.back()].b];
+      height += (end.z - x[mesh.rigging.confluence].z) / given.parachute.lines.count;
+      EXPECT_NEAR(norm(end - x[mesh.rigging.confluence]) / (ratio * given.parachute.lines.length_m), 1, 0.01);
+    }
+    EXPECT_LT(height, height_before - 0.03);
+    EXPECT_GT(apex / all, share_before);
+    height_before = height, share_before = apex / all;
   }
 }
 

@@ -99,7 +99,8 @@ std::vector<LineTension> line_tensions(const CanopyMesh& mesh, const std::vector
   std::vector<LineTension> tensions;
   for (const LineRun& line : mesh.rigging.lines) {
     LineTension t;
-    t.radial = line.radial;
+    t.number = line.radial + 1;
+    t.apex = line.apex;
     for (const int spring : line.springs) {
       t.largest_tension = std::max(t.largest_tension, spring_tensions[spring] / line.axial_share);
     }

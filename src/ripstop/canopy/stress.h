@@ -11,7 +11,8 @@
 namespace ripstop {
 
 struct LineTension {
-  int radial = 0;
+  int number = 0;  // of the line, from 1; of the apex line where `apex`
+  bool apex = false;
   double free_tension = 0;     // in the middle of the free part [N]
   double largest_tension = 0;  // anywhere between confluence and its end on the canopy [N]
 };

@@ -25,22 +25,6 @@ using std::numbers::pi;
 
 constexpr double same = 1e-6;  // [m]
 
-/// Quoted as TOML has it, without control characters.
-std::string toml_quoted(const std::string& text, std::size_t longest) {
-  std::string whole = visible_line(text);
-  if (whole.size() > longest) {
-    whole.resize(longest);
-    // A cut inside a character of several bytes would not be UTF-8.
-    while (!whole.empty() && (static_cast<unsigned char>(whole.back()) & 0x80)) whole.pop_back();
-  }
-  std::string result;
-  for (const char c : whole) {
-    if (c == '"' || c == '\\') result += '\\';
-    result += c;
-  }
-  return '"' + result + '"';
-}
-
 std::string list(const std::vector<double>& values) {
   std::vector<std::string> texts;
   for (const double value : values) texts.push_back(fmt::format("{:.9g}", value));
@@ -71,7 +55,7 @@ class Importer {
   Importer(const ChuteFile& file, const ChuteImportOptions& options, const std::string& source)
       : file_(file), options_(options), source_(source) {}
 
-  ChuteImport run(bool as_profile = false) {
+  ImportedCase run(bool as_profile = false) {
     const std::vector<ChuteSection>& s = file_.sections;
     const bool circular =
         std::all_of(s.begin(), s.end(), [](const ChuteSection& section) { return section.circular; });
@@ -414,7 +398,7 @@ class Importer {
   const ChuteFile& file_;
   const ChuteImportOptions& options_;
   const std::string& source_;
-  ChuteImport result_;
+  ImportedCase result_;
   Canopy canopy_;
   int gores_ = 0;
   int lines_ = 0;
@@ -423,7 +407,7 @@ class Importer {
 };
 
 /// The first thing that is wrong with the imported case, by its key; empty: nothing.
-std::string first_problem(const ChuteImport& made) {
+std::string first_problem(const ImportedCase& made) {
   try {
     parse_case(made.case_text, "");
     return "";
@@ -436,13 +420,13 @@ std::string first_problem(const ChuteImport& made) {
 
 }  // namespace
 
-ChuteImport import_chute(const ChuteFile& file, const ChuteImportOptions& options,
-                         const std::string& source) {
-  ChuteImport direct = Importer(file, options, source).run();
+ImportedCase import_chute(const ChuteFile& file, const ChuteImportOptions& options,
+                          const std::string& source) {
+  ImportedCase direct = Importer(file, options, source).run();
   const std::string problem = first_problem(direct);
   if (problem.empty()) return direct;
   if (direct.type != "profile") {
-    ChuteImport general = Importer(file, options, source).run(true);
+    ImportedCase general = Importer(file, options, source).run(true);
     if (first_problem(general).empty()) {
       general.changed.push_back(
           fmt::format("type = \"{}\" cannot represent this shape ({}): written as pieces of a profile",

@@ -3,9 +3,9 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "ripstop/case/chute_file.h"
+#include "ripstop/case/imported_case.h"
 
 namespace ripstop {
 
@@ -17,21 +17,12 @@ struct ChuteImportOptions {
                                         // ends in a point (assumed)
 };
 
-/// Every sentence of the report belongs to one list; the content of the file is in the first three.
-struct ChuteImport {
-  std::string case_text;
-  std::string type;                     // of [parachute]
-  std::vector<std::string> mapped;      // as the file has it
-  std::vector<std::string> changed;     // in the case, but not as the file has it, and why
-  std::vector<std::string> not_mapped;  // not in the case, and why
-  std::vector<std::string> assumed;     // in the case, but not in the file
-};
-
 /// A flat disk with or without a cylindrical band below, or a cone, of circular sections becomes `disk-gap-band`,
 /// `flat-circular`, `conical`; a single cylinder of 2 gores, which represents a cross in openchute, becomes `cross`.
 /// Everything else becomes a `profile` that is cut as openchute cuts it: gores 2 pi r / N wide. `source` names the
 /// file in the case. Throws Error(bad_data) with the place for shapes that cannot be converted: polygonal sections of
 /// different numbers of gores, two gores, no room for a vent.
-ChuteImport import_chute(const ChuteFile& file, const ChuteImportOptions& options, const std::string& source);
+ImportedCase import_chute(const ChuteFile& file, const ChuteImportOptions& options,
+                          const std::string& source);
 
 }  // namespace ripstop

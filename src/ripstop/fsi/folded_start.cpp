@@ -87,7 +87,7 @@ class GoreFolder {
   GoreFolder(const CanopyMesh& mesh, const Folding& folding, int symmetry, ThreadTeam& team)
       : mesh_(mesh),
         folding_(folding),
-        folds_(folding.folds > 0 ? folding.folds : static_cast<int>(mesh.rigging.lines.size())),
+        folds_(folding.folds > 0 ? folding.folds : static_cast<int>(line_joints(mesh).size())),
         symmetry_(std::gcd(symmetry, folds_)),
         piece_(pieces_of_cloth(mesh)),
         team_(team) {}

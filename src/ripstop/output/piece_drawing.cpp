@@ -90,6 +90,11 @@ PieceDrawing drawing_of(const Piece& piece, const Allowances& allowances, const 
                      {PieceLayer::seam, piece.outline, true},
                      {PieceLayer::grain, {tail, tip}},
                      {PieceLayer::grain, {left, tip, right}}};
+  if (!piece.opening.empty()) {
+    drawing.strokes.push_back({PieceLayer::seam, piece.opening, true});
+    const std::vector<Point2> hole = opening_with_allowance(piece, allowances);
+    if (!hole.empty()) drawing.strokes.push_back({PieceLayer::cut, hole, true});
+  }
   for (const auto& [from, to] : notches(piece, allowances))
     drawing.strokes.push_back({PieceLayer::notch, {from, to}});
   add_edges(piece, drawing);

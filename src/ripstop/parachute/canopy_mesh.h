@@ -7,18 +7,19 @@
 
 namespace ripstop {
 
-/// One suspension line from the confluence to its end on the canopy.
+/// One suspension line from the confluence to its end on the canopy, or one apex line to the edge of the vent.
 struct LineRun {
-  int radial = 0;            // 0 .. line_count - 1
-  std::vector<int> springs;  // axial springs in order from the confluence, indices into Mesh::springs
-  int free_springs = 0;      // the first so many lie between confluence and skirt
+  int radial = 0;                 // 0 .. line_count - 1
+  std::vector<int> springs = {};  // axial springs in order from the confluence, indices into Mesh::springs
+  int free_springs = 0;           // the first so many lie between confluence and cloth
   double axial_share =
-      1;  // of the line's tension that its axial springs carry; bending springs carry the rest
+      1;              // of the line's tension that its axial springs carry; bending springs carry the rest
+  bool apex = false;  // whether it is an apex line
 };
 
 /// Indices into the mesh: of nodes, of Mesh::springs, of Mesh::patches.
 struct Rigging {
-  std::vector<LineRun> lines;
+  std::vector<LineRun> lines;          // suspension lines, then apex lines
   std::vector<int> vent_line_springs;  // axial
   std::vector<int> riser_springs;      // axial, from the fixed end; empty without a riser
   std::vector<int> tape_springs;
@@ -33,11 +34,11 @@ struct CanopyMesh : Mesh {
   Rigging rigging;
 };
 
-/// Where the lines meet the skirt, nodes in the order of the lines, which is that round the canopy.
+/// Where the suspension lines meet the skirt, nodes in the order of the lines, which is that round the canopy.
 inline std::vector<int> line_joints(const CanopyMesh& mesh) {
   std::vector<int> joints;
   for (const LineRun& line : mesh.rigging.lines)
-    joints.push_back(mesh.springs[line.springs[line.free_springs - 1]].b);
+    if (!line.apex) joints.push_back(mesh.springs[line.springs[line.free_springs - 1]].b);
   return joints;
 }
 

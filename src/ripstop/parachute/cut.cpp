@@ -60,6 +60,23 @@ double polygon_area(const std::vector<Point2>& polygon) {
   return area;
 }
 
+double piece_area(const Piece& piece) {
+  return polygon_area(piece.outline) - polygon_area(piece.opening);
+}
+
+std::vector<Point2> opening_with_allowance(const Piece& piece, const Allowances& allowances) {
+  Point2 middle;
+  const double n = double(piece.opening.size());
+  for (const Point2 p : piece.opening) middle.x += p.x / n, middle.y += p.y / n;
+  std::vector<Point2> cut;
+  for (const Point2 p : piece.opening) {
+    const double x = p.x - middle.x, y = p.y - middle.y, share = 1 - allowances.hem / std::hypot(x, y);
+    if (share <= 0) return {};
+    cut.push_back({middle.x + share * x, middle.y + share * y});
+  }
+  return cut;
+}
+
 std::vector<Point2> with_allowance(const Piece& piece, const Allowances& allowances) {
   const std::size_t n = piece.outline.size();
   struct Side {
@@ -121,6 +138,8 @@ CutPattern cut_pattern(const GorePattern& pattern, const Design& design) {
     const double vent = pattern.strips.back().stations.back().chord / std::sin(pi / n);
     cut.lines.push_back({"vent line", design.lines.count / 2, vent});
   }
+  if (pattern.apex_line_ratio > 0)
+    cut.lines.push_back({"apex line", design.lines.count, pattern.apex_line_ratio * design.lines.length_m});
   return cut;
 }
 
@@ -135,8 +154,9 @@ Bill bill_of(const CutPattern& pattern, const Design& design, const PartMaterial
              const Allowances& allowances, double packing_density) {
   Bill bill;
   for (const Piece& piece : pattern.pieces) {
-    const double finished = piece.count * polygon_area(piece.outline);
-    const double cut = piece.count * polygon_area(with_allowance(piece, allowances));
+    const double finished = piece.count * piece_area(piece);
+    const double cut = piece.count * (polygon_area(with_allowance(piece, allowances)) -
+                                      polygon_area(opening_with_allowance(piece, allowances)));
     bill.rows.push_back({piece.name, materials.canopy.name, piece.count, finished, cut, true,
                          cut * materials.canopy.areal_density_kg_m2, BillPart::cloth});
   }

@@ -34,7 +34,10 @@ struct Piece {
   double grain = 0;                          // of the warp, from y toward x [deg]
   std::vector<std::string> edge_names = {};  // of the edges; empty, or empty of one: "seam" or "hem"
   std::vector<PieceMark> marks = {};         // suspension lines
+  std::vector<Point2> opening = {};  // edge of a hole with a hem, counterclockwise; empty: there is none
 };
+/// Of the cloth of one piece, without its opening [m2].
+double piece_area(const Piece& piece);
 
 struct CutLength {
   std::string name;
@@ -47,7 +50,7 @@ struct CutPattern {
   std::vector<Piece> pieces;
   std::vector<CutLength> tapes;
   double line_on_canopy = 0;     // length of every line beyond the skirt [m]
-  std::vector<CutLength> lines;  // vent lines
+  std::vector<CutLength> lines;  // vent lines, apex lines
 };
 
 /// Extra cloth, tape and line beyond the finished size [m].
@@ -60,6 +63,8 @@ struct Allowances {
 
 /// The outline to cut: every edge moved outward by its allowance, corners mitred.
 std::vector<Point2> with_allowance(const Piece& piece, const Allowances& allowances);
+/// The edge to cut of its opening, smaller than the finished one by the hem; empty where none is left.
+std::vector<Point2> opening_with_allowance(const Piece& piece, const Allowances& allowances);
 
 /// Strips of a gored canopy, hems, seams, vertical tapes and vent lines.
 CutPattern cut_pattern(const GorePattern& pattern, const Design& design);

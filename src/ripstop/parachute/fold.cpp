@@ -142,7 +142,7 @@ class Folder {
   Folder(const CanopyMesh& mesh, const Folding& folding)
       : mesh_(mesh),
         folding_(folding),
-        folds_(folding.folds > 0 ? folding.folds : static_cast<int>(mesh.rigging.lines.size())),
+        folds_(folding.folds > 0 ? folding.folds : static_cast<int>(line_joints(mesh).size())),
         zigzag_(folds_),
         pieces_(pieces_of(mesh)),
         piece_of_node_(mesh.node_count(), -1),

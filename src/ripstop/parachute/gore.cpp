@@ -51,9 +51,10 @@ Profile start_profile(const GorePattern& pattern) {
   const double per_chord = 0.5 / std::tan(pi / pattern.gores);
   Profile profile;
   ProfilePoint last;
-  const auto next = [&](double chord, double distance) {
+  const auto next = [&](double chord, double distance, bool falls) {
     const double apothem = chord * per_chord, step = apothem - last.apothem;
-    last = {apothem, last.z + std::sqrt(std::max(0.0, distance * distance - step * step))};
+    const double height = std::sqrt(std::max(0.0, distance * distance - step * step));
+    last = {apothem, last.z + (falls ? -height : height)};
     return last;
   };
   for (const GoreStrip& strip : pattern.strips) {
@@ -64,7 +65,9 @@ Profile start_profile(const GorePattern& pattern) {
         last = {here.chord * per_chord, 0};
         points.push_back(last);
       } else {
-        points.push_back(next(here.chord, k == 0 ? strip.slot : here.height - strip.stations[k - 1].height));
+        const bool falls = strip.crown >= 0 && k > static_cast<std::size_t>(strip.crown);
+        points.push_back(
+            next(here.chord, k == 0 ? strip.slot : here.height - strip.stations[k - 1].height, falls));
       }
     }
     profile.push_back(std::move(points));
@@ -119,7 +122,8 @@ CanopyFacts facts(const GorePattern& pattern) {
   const double seam_per_chord = 0.5 / std::sin(pi / n);
   facts.skirt_radius = seam_per_chord * pattern.strips.front().stations.front().chord;
   facts.start_diameter = 2 * seam_per_chord * widest;
-  facts.start_depth = start_profile(pattern).back().back().z;
+  for (const std::vector<ProfilePoint>& points : start_profile(pattern))
+    for (const ProfilePoint& point : points) facts.start_depth = std::max(facts.start_depth, point.z);
   return facts;
 }
 

@@ -25,6 +25,8 @@ struct GoreStrip {
   double slot = 0;                // open height below it, to the strip before, spanned by the radials [m]
   bool joined = false;            // sewn to the strip before along the whole edge, else at the radials only
   bool whole = false;             // its mesh has one number of columns
+  int crown =
+      -1;  // the highest station, from which the meridian falls toward the vent; -1: it rises all the way
 
   double length() const { return stations.back().height; }
   double width(double height) const;
@@ -37,6 +39,8 @@ struct GorePattern {
   std::vector<GoreStrip> strips;  // of one gore, from the skirt toward the vent
   bool vent_lines = false;        // the lines continue across the vent
   int vertical_tapes = 0;         // in every gore, between its seams, over all strips and slots
+  double apex_line_ratio = 0;     // lines from the confluence to the vent's edge, over the length of the
+                                  // suspension lines; 0: there are none
 };
 
 /// q = sqrt(pi / (N tan(pi/N))): a regular polygon whose inscribed circle has q times a circle's radius has
@@ -59,7 +63,8 @@ using Profile = std::vector<std::vector<ProfilePoint>>;
 
 /// The start shape is the flat pattern folded along its seams, an isometry where there is no fullness: every
 /// gore a cylinder whose rulings lie across it, apothem = chord / (2 tan(pi/N)). Where the pattern widens
-/// faster than a flat disk (no such shape exists) the profile is flat.
+/// faster than a flat disk (no such shape exists) the profile is flat. Beyond its crown a strip is folded
+/// downward.
 Profile start_profile(const GorePattern& pattern);
 
 /// Open length below strip `index` at `across` (-0.5 to 0.5) of the chord [m].

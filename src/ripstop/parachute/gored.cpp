@@ -262,7 +262,11 @@ void Builder::add_sewn_lines() {
     }
     sewn.push_back(std::move(line));
   }
-  builder_.add_lines(design_, materials_, sewn);
+  ApexLines apex{pattern_.apex_line_ratio * design_.lines.length_m, {}};
+  if (apex.length > 0)
+    for (int k = 0; k < design_.lines.count; ++k)
+      apex.ends.push_back(runs_along(k, design_.lines.count).back().nodes.back());
+  builder_.add_lines(design_, materials_, sewn, apex);
   if (pattern_.vent_lines && lines_reach_vent_) builder_.add_vent_lines(materials_, sewn);
 }
 

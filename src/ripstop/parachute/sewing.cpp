@@ -99,32 +99,40 @@ void CanopyBuilder::add_riser(const Design& design, const Line& riser) {
   mesh.fixed = {path.nodes.front()};
 }
 
+void CanopyBuilder::add_line(LineRun line, const std::string& name, double length, const Path& onto,
+                             const Design& design, const Line& material, ChainLaws laws) {
+  line.free_springs = std::max(1, static_cast<int>(length / design.mesh.line_segment_m));
+  const Vec3 confluence = mesh.start[rigging.confluence], end = mesh.start[onto.nodes.front()];
+  Path path{{rigging.confluence}, {}};
+  for (int i = 1; i < line.free_springs; ++i) {
+    const Vec3 place = confluence + (end - confluence) * (double(i) / line.free_springs);
+    path.append({{add_node(place, 0)}, {}}, length / line.free_springs);
+  }
+  path.append(onto, length / line.free_springs);
+  line.springs = add_chain(path, material, laws, part(name));
+  line.axial_share = 1 - material.bending_fraction;
+  rigging.lines.push_back(std::move(line));
+}
+
 void CanopyBuilder::add_lines(const Design& design, const PartMaterials& materials,
-                              const std::vector<Path>& sewn) {
+                              const std::vector<Path>& sewn, const ApexLines& apex) {
   const double length = design.lines.length_m;
-  const Line& line = materials.line;
   double confluence_z = -1e300;
-  for (const Path& path : sewn) {
-    const Vec3 skirt = mesh.start[path.nodes.front()];
-    const double radius = std::hypot(skirt.x, skirt.y);
-    confluence_z = std::max(confluence_z, skirt.z - std::sqrt(length * length - radius * radius));
-  }
-  const Vec3 confluence{0, 0, confluence_z};
-  rigging.confluence = add_node(confluence, 0);
-  const ChainLaws laws = add_laws(line);
-  const int free_segments = std::max(1, static_cast<int>(length / design.mesh.line_segment_m));
-  for (std::size_t k = 0; k < sewn.size(); ++k) {
-    const Vec3 skirt = mesh.start[sewn[k].nodes.front()];
-    Path path{{rigging.confluence}, {}};
-    for (int i = 1; i < free_segments; ++i) {
-      const Vec3 place = confluence + (skirt - confluence) * (double(i) / free_segments);
-      path.append({{add_node(place, 0)}, {}}, length / free_segments);
-    }
-    path.append(sewn[k], length / free_segments);
-    rigging.lines.push_back({static_cast<int>(k),
-                             add_chain(path, line, laws, part(fmt::format("line {}", k + 1))), free_segments,
-                             1 - line.bending_fraction});
-  }
+  const auto keep_unstretched = [&](int end, double longest) {
+    const Vec3 place = mesh.start[end];
+    const double radius = std::hypot(place.x, place.y);
+    confluence_z = std::max(confluence_z, place.z - std::sqrt(longest * longest - radius * radius));
+  };
+  for (const Path& path : sewn) keep_unstretched(path.nodes.front(), length);
+  for (const int end : apex.ends) keep_unstretched(end, apex.length);
+  rigging.confluence = add_node({0, 0, confluence_z}, 0);
+  const ChainLaws laws = add_laws(materials.line);
+  for (std::size_t k = 0; k < sewn.size(); ++k)
+    add_line({.radial = static_cast<int>(k)}, fmt::format("line {}", k + 1), length, sewn[k], design,
+             materials.line, laws);
+  for (std::size_t k = 0; k < apex.ends.size(); ++k)
+    add_line({.radial = static_cast<int>(k), .apex = true}, fmt::format("apex line {}", k + 1), apex.length,
+             {{apex.ends[k]}, {}}, design, materials.line, laws);
   add_riser(design, materials.riser);
 }
 

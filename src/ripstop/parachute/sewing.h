@@ -9,6 +9,12 @@
 
 namespace ripstop {
 
+/// Lines of equal length from the confluence to nodes on the edge of the vent, which they pull down.
+struct ApexLines {
+  double length = 0;  // [m]
+  std::vector<int> ends;
+};
+
 /// A mesh while it becomes a canopy.
 class CanopyBuilder : public MeshBuilder {
  public:
@@ -33,9 +39,10 @@ class CanopyBuilder : public MeshBuilder {
   Path sew(const Path& path, double length, double segment, bool straight);
 
   /// Straight lines from the confluence on the axis to the first node of every path, which they follow from
-  /// there; and the riser. All lines are `design.lines.length_m` long; the confluence lies where the longest
-  /// is taut. Call once.
-  void add_lines(const Design& design, const PartMaterials& materials, const std::vector<Path>& sewn);
+  /// there; the apex lines, of the same material; and the riser. All suspension lines are `design.lines.length_m`
+  /// long; the confluence lies where no line is stretched and one is taut. Call once.
+  void add_lines(const Design& design, const PartMaterials& materials, const std::vector<Path>& sewn,
+                 const ApexLines& apex = {});
 
   /// Every line continues across the vent to the end of the opposite one: an even number of paths. A vent line
   /// is as long as the distance that it spans in the start shape.
@@ -54,6 +61,9 @@ class CanopyBuilder : public MeshBuilder {
   /// Axial springs between neighbours, bending springs over two; the axial ones.
   std::vector<int> add_chain(const Path& path, const Line& line, ChainLaws laws, int part);
   void add_riser(const Design& design, const Line& riser);
+  /// A line of the given length, straight from the confluence to the start of `onto`, which it follows from there.
+  void add_line(LineRun line, const std::string& name, double length, const Path& onto, const Design& design,
+                const Line& material, ChainLaws laws);
 };
 
 }  // namespace ripstop

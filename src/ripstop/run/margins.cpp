@@ -15,7 +15,11 @@ Margins case_margins(const Settings& resolved, const CanopyMesh& mesh,
   loads.cloth = std::max(stress.warp, stress.weft);
   if (!spring_tensions.empty()) {
     for (const LineTension& t : line_tensions(mesh, spring_tensions))
-      loads.lines.push_back(t.largest_tension);
+      if (t.apex)
+        loads.others.push_back(
+            {fmt::format("apex line {}", t.number), t.largest_tension, resolved.materials().line});
+      else
+        loads.lines.push_back(t.largest_tension);
     for (const int spring : mesh.rigging.tape_springs)
       loads.tape = std::max(loads.tape, spring_tensions[spring]);
     const std::vector<int>& chain = mesh.rigging.riser_springs;
@@ -53,14 +57,18 @@ Margins load_margins(const Design& design, const MarginFactors& factors, const F
 }
 
 std::vector<Margin> weakest_of_kinds(const Margins& margins) {
+  const auto kind_of = [](const Margin& m) {
+    for (const char* kind : {"line ", "apex line "})
+      if (m.member.starts_with(kind)) return std::string(kind);
+    return m.member;
+  };
   std::vector<Margin> rows;
   for (const Margin& m : margins.members) {
-    const bool line = m.member.starts_with("line ");
-    if (line && !rows.empty() && rows.back().member.starts_with("line ")) {
-      if (m.used.value_or(0) > rows.back().used.value_or(0)) rows.back() = m;
-      continue;
+    if (rows.empty() || kind_of(rows.back()) != kind_of(m)) {
+      rows.push_back(m);
+    } else if (m.used.value_or(0) > rows.back().used.value_or(0)) {
+      rows.back() = m;
     }
-    rows.push_back(m);
   }
   return rows;
 }

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "ripstop/case/openrocket_import.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/process.h"
 #include "ripstop/run/opening/filling.h"
@@ -93,6 +94,27 @@ int(parachute.find("Sides").text), int(parachute.find("LineCount").text)
   const ExportedParachute p = parachute();
   EXPECT_NEAR(std::stod(python(script, openrocket_text(p))), p.drag_area, 1e-9);
   EXPECT_NE(openrocket_text(p).find(fmt::format("C_D on S0 = {:.4f} m2", p.nominal_area)), std::string::npos);
+}
+
+// From the run to a component database, to a case of a flat circular canopy: the same device.
+TEST_F(Export, OpenRocketsComponentIsImportedAsTheSameDevice) {
+  const ExportedParachute p = parachute();
+  write_file(folder_->path / "part.orc", openrocket_text(p));
+  const OpenRocketFile file = read_openrocket(folder_->path / "part.orc");
+  ASSERT_EQ(file.devices.size(), 1u);
+  const RecoveryDevice& device = file.devices[0];
+  EXPECT_EQ(device.name, "Ripstop " + p.title);
+  EXPECT_NEAR(device.mass.value(), p.mass, 1e-12);
+  const Settings back =
+      resolve(parse_case(import_openrocket(file, device, {}, "part.orc").case_text, "p.toml"));
+  EXPECT_NEAR(nominal_diameter(back.parachute()) / p.nominal_diameter, 1, 1e-8);
+  EXPECT_EQ(back.parachute().gores, p.gores);
+  EXPECT_EQ(back.parachute().lines.count, p.line_count);
+  EXPECT_NEAR(back.parachute().lines.length_m, p.line_length, 1e-9);
+  EXPECT_NEAR(back.materials().canopy.areal_density_kg_m2, p.cloth_density, 1e-9);
+  EXPECT_NEAR(back.materials().line.linear_density_kg_m, p.line_density, 1e-9);
+  const double drag_area = back.inflation().drag_coefficient.value() * nominal_area(back.parachute());
+  EXPECT_NEAR(drag_area / p.drag_area, 1, 1e-8);
 }
 
 TEST_F(Export, EveryNumberIsThatOfTheRunOrOfItsDesign) {

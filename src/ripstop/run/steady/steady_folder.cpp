@@ -162,7 +162,7 @@ void SteadyFolder::write_state(const SteadyRun& run, const SteadyState& state) c
                         {}});
   CsvTable table{{"line", "free_tension_n", "largest_tension_n"}, {}};
   for (const LineTension& t : line_tensions(mesh, tensions)) {
-    table.rows.push_back({t.radial + 1.0, t.free_tension, t.largest_tension});
+    table.rows.push_back({double(table.rows.size() + 1), t.free_tension, t.largest_tension});
   }
   folder_.write("lines.csv", table);
 }

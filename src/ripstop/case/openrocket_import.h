@@ -1,0 +1,35 @@
+// From a recovery device of OpenRocket to a case of Ripstop.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "ripstop/case/imported_case.h"
+#include "ripstop/case/openrocket_file.h"
+
+namespace ripstop {
+
+/// The diameter that a file gives: of the cloth laid flat, as OpenRocket defines it, or of the open canopy, as
+/// makers often state it together with a drag coefficient on the projected area.
+enum class GivenDiameter { constructed, projected };
+
+/// Data that the file does not contain.
+struct OpenRocketImportOptions {
+  GivenDiameter diameter = GivenDiameter::constructed;
+  std::optional<int> line_count;      // absent: the file's
+  std::optional<double> line_length;  // [m]; absent: the file's, or 1.15 nominal diameters (assumed)
+  std::optional<double>
+      vent_diameter;  // [m]; absent: the file's spill hole, or a tenth of the nominal diameter
+  std::optional<double> payload_mass;  // [kg]; absent: that of a stored simulation
+};
+
+/// The device that `wanted` names: its number in the list, counted from 1, or its name. Empty: the only parachute of
+/// the file. Throws Error(usage) with the list of devices where there is a choice or none fits.
+const RecoveryDevice& choose_device(const OpenRocketFile& file, const std::string& wanted);
+
+/// A flat circular canopy whose drag area is that of the device. `source` names the file in the case. Throws
+/// Error(bad_data) for a streamer and for a device without a diameter.
+ImportedCase import_openrocket(const OpenRocketFile& file, const RecoveryDevice& device,
+                               const OpenRocketImportOptions& options, const std::string& source);
+
+}  // namespace ripstop
