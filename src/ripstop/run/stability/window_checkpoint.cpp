@@ -32,9 +32,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int window_format = 1;
-constexpr const char* window = "window/";
-constexpr const char* state = "steps";
-constexpr const char* flows[] = {"even", "odd"};
+constexpr const char* window_folder = "window/";
+constexpr const char* steps_file = "steps";
+constexpr const char* flow_folders[] = {"even", "odd"};
 
 struct Steps {
   std::vector<FlowStep> steps;
@@ -46,21 +46,21 @@ void each_member(T& saved, Visit&& visit) {
   visit("flow", saved.flow);
 }
 
-double seconds() {
+double time_on_the_wall() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 }  // namespace
 
 WindowCheckpoint::WindowCheckpoint(ClaimedFolder& folder, double every_s)
-    : folder_(folder), every_(every_s), saved_(seconds()) {}
+    : folder_(folder), every_(every_s), saved_(time_on_the_wall()) {}
 
 std::optional<FlowRecord> WindowCheckpoint::resume(Flow& flow) {
-  const fs::path file = folder_.path() / window / state;
+  const fs::path file = folder_.path() / window_folder / steps_file;
   if (!fs::exists(file)) return {};
   Steps saved = from_cbor<Steps>(read_sealed(file), window_format, "a checkpoint of an averaging window");
   const int which = std::clamp(saved.flow, 0, 1);
-  flow.restore(folder_.path() / window / flows[which]);
+  flow.restore(folder_.path() / window_folder / flow_folders[which]);
   next_ = 1 - which;
   FlowRecord record;
   record.steps = std::move(saved.steps);
@@ -68,15 +68,15 @@ std::optional<FlowRecord> WindowCheckpoint::resume(Flow& flow) {
 }
 
 void WindowCheckpoint::look(const Flow& flow, const FlowRecord& record) {
-  if (seconds() - saved_ < every_) return;
-  const fs::path folder = folder_.own(window);
-  flow.save(folder / flows[next_]);
-  write_sealed(folder / state, to_cbor(Steps{record.steps, next_}, window_format));
-  next_ = 1 - next_, saved_ = seconds();
+  if (time_on_the_wall() - saved_ < every_) return;
+  const fs::path folder = folder_.own(window_folder);
+  flow.save(folder / flow_folders[next_]);
+  write_sealed(folder / steps_file, to_cbor(Steps{record.steps, next_}, window_format));
+  next_ = 1 - next_, saved_ = time_on_the_wall();
 }
 
 void WindowCheckpoint::remove() const {
-  remove_path(folder_.path() / window);
+  remove_path(folder_.path() / window_folder);
 }
 
 }  // namespace ripstop
