@@ -330,6 +330,7 @@ std::vector<FamilyDrag> family_drags() {
                       row.at("density_kg_m3"),
                       fmt::format("{}, {}", data.at("made_by").get<std::string>(),
                                   data.at("made_on").get<std::string>())};
+      drag.projected_ratio = row.at("projected_over_nominal_diameter");
       const auto& handbook = row.at("handbook_drag_coefficient");
       if (!handbook.is_null()) drag.handbook = {handbook.at(0).get<double>(), handbook.at(1).get<double>()};
       all.push_back(std::move(drag));
@@ -360,6 +361,14 @@ SizeResult run_size(const SizeRequest& request) {
   require_positive("drag coefficient", r.drag_coefficient);
   r.drag_source =
       request.drag_coefficient ? "given" : fmt::format("computed at {:g} m/s: {}", drag.speed, drag.made);
+  if (request.drag_coefficient_on == DragReference::projected) {
+    if (!request.drag_coefficient)
+      throw Error(ExitCode::usage, "--drag-coefficient-on projected needs --drag-coefficient");
+    r.drag_source =
+        fmt::format("given as {:g} on the projected area; projected / nominal diameter {:.3f}, {}",
+                    r.drag_coefficient, drag.projected_ratio, drag.made);
+    r.drag_coefficient *= drag.projected_ratio * drag.projected_ratio;
+  }
   r.handbook_drag_coefficient = drag.handbook;
   r.deployment_speed = request.deployment_speed.value_or(usual_deployment_speed(request.descent_rate));
   require_positive("deployment speed (m/s)", r.deployment_speed);
