@@ -22,6 +22,7 @@ void add_stability(CLI::App& app, int& status);
 void add_sweep(CLI::App& app, int& status);
 void add_compare(CLI::App& app, int& status);
 void add_photogrammetry(CLI::App& app, int& status);
+void add_compare_flight(CLI::App& app, int& status);
 void add_import(CLI::App& app, int& status);
 void add_descent(CLI::App& app, int& status);
 void add_report(CLI::App& app, int& status);

@@ -128,6 +128,7 @@ int run(int argc, char** argv) {
   add_sweep(app, status);
   add_stability(app, status);
   add_compare(app, status);
+  add_compare_flight(app, status);
   add_photogrammetry(app, status);
   add_descent(app, status);
   add_report(app, status);

@@ -41,7 +41,7 @@ void print_result(const SizeResult& r, const fs::path& file, const fs::path& pag
   fmt::print("{}\n", r.given.title);
   row("air", fmt::format("{:.4g} kg/m3", r.density));
   row("drag coefficient",
-      fmt::format("{:.3f}, {}{}", r.drag_coefficient, r.drag_source,
+      fmt::format("{:.3f} on S0, {}{}", r.drag_coefficient, r.drag_source,
                   r.handbook_drag_coefficient
                       ? fmt::format("; Knacke, in descent: {:.2f} to {:.2f}",
                                     r.handbook_drag_coefficient->at(0), r.handbook_drag_coefficient->at(1))
@@ -194,6 +194,16 @@ void add_size(CLI::App& app, int& status) {
       ->excludes(height);
   add_number(*command, "--drag-coefficient", r.drag_coefficient, key_range("inflation.drag_coefficient"),
              "Drag coefficient on S0 (default: value computed for the family)");
+  command
+      ->add_option_function<std::string>(
+          "--drag-coefficient-on",
+          [&r](const std::string& area) {
+            r.drag_coefficient_on = area == "projected" ? DragReference::projected : DragReference::nominal;
+          },
+          "Area of --drag-coefficient: nominal (S0), or projected (the circle of the open canopy, as makers "
+          "state "
+          "it)")
+      ->check(CLI::IsMember({"nominal", "projected"}));
   add_number(
       *command, "--deployment-speed", r.deployment_speed, above(0).up_to(1000),
       "Speed at deployment, for the opening load [m/s] (default: 20, at least 3 times the descent rate)");

@@ -87,6 +87,8 @@ void print_result(const SteadyResult& r, const Settings& resolved, const fs::pat
                       ? fmt::format("; in descent {:.2f} to {:.2f} (Knacke)", r.known_drag_coefficient->at(0),
                                     r.known_drag_coefficient->at(1))
                       : ""));
+  row("", fmt::format("{:.4f} on the projected area of {:.4f} m2", r.drag_area / r.size.projected_area,
+                      r.size.projected_area));
   row("projected diameter", fmt::format("{:.3f} m", r.size.projected_diameter));
   row("skirt diameter", fmt::format("{:.3f} m", r.size.skirt_diameter));
   row("maximum line tension", fmt::format("{:.1f} N", r.max_line_tension));

@@ -105,7 +105,7 @@ TEST(LineTensions, AreTheSumOfAxialAndBendingSprings) {
   tension[line.springs.back()] = 12;
   const std::vector<LineTension> tensions = line_tensions(mesh, tension);
   ASSERT_EQ(tensions.size(), 18u);
-  EXPECT_EQ(tensions[3].radial, 3);
+  EXPECT_EQ(tensions[3].number, 4);
   EXPECT_NEAR(tensions[3].free_tension * line.axial_share, 10, 1e-12);
   EXPECT_NEAR(tensions[3].largest_tension * line.axial_share, 12, 1e-12);
   EXPECT_EQ(tensions[4].largest_tension, 0);

@@ -18,9 +18,7 @@
 namespace ripstop {
 namespace {
 
-using std::numbers::pi;
-
-const std::filesystem::path design =
+const std::filesystem::path two_stages =
     std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/openrocket/two-stage-recovery.ork";
 
 class OpenRocket : public testing::Test {
@@ -31,7 +29,7 @@ class OpenRocket : public testing::Test {
   }
   /// The example with one text replaced.
   std::filesystem::path with(const std::string& from, const std::string& to) const {
-    std::string text = read_file(design);
+    std::string text = read_file(two_stages);
     const std::size_t place = text.find(from);
     EXPECT_NE(place, std::string::npos) << from;
     return written(text.replace(place, from.size(), to));
@@ -41,7 +39,7 @@ class OpenRocket : public testing::Test {
     write_file(folder_.path / "pack.py", script);
     ProcessRequest request;
     request.arguments = {"/usr/bin/python3", (folder_.path / "pack.py").string(),
-                         (folder_.path / "packed.ork").string(), design.string()};
+                         (folder_.path / "packed.ork").string(), two_stages.string()};
     request.time_limit_s = 60;
     EXPECT_EQ(run_process(request).exit_code, 0);
     return folder_.path / "packed.ork";
@@ -50,13 +48,13 @@ class OpenRocket : public testing::Test {
   TemporaryFolder folder_{"openrocket"};
 };
 
-bool contains(const std::vector<std::string>& list, const std::string& words) {
+bool has_sentence(const std::vector<std::string>& list, const std::string& words) {
   return std::any_of(list.begin(), list.end(),
                      [&](const std::string& s) { return s.find(words) != std::string::npos; });
 }
 
 TEST_F(OpenRocket, ADesignHasItsRecoveryDevicesWithStageEventAndMass) {
-  const OpenRocketFile file = read_openrocket(design);
+  const OpenRocketFile file = read_openrocket(two_stages);
   EXPECT_EQ(file.name, "Student rocket");
   ASSERT_EQ(file.devices.size(), 3u);
   const RecoveryDevice &drogue = file.devices[0], &main = file.devices[1], &marker = file.devices[2];
@@ -77,11 +75,11 @@ TEST_F(OpenRocket, ADesignHasItsRecoveryDevicesWithStageEventAndMass) {
   EXPECT_EQ(main.simulation, "Sport launch");
   EXPECT_TRUE(marker.streamer);
   EXPECT_TRUE(marker.automatic);
-  EXPECT_TRUE(contains(file.notes, "\"Main\": the deployment of 1 flight configuration"));
+  EXPECT_TRUE(has_sentence(file.notes, "\"Main\": the deployment of 1 flight configuration"));
 }
 
 TEST_F(OpenRocket, ACompressedDesignIsReadAsThePlainOne) {
-  const std::string plain = read_file(design);
+  const std::string plain = read_file(two_stages);
   EXPECT_EQ(
       openrocket_text_of(packed("import sys, gzip\n"
                                 "gzip.open(sys.argv[1], 'wb').write(open(sys.argv[2], 'rb').read())\n")),
@@ -154,12 +152,12 @@ TEST_F(OpenRocket, OddValuesAreRefusedWithLineAndElement) {
     EXPECT_NE(refusal.find(message), std::string::npos) << refusal;
   }
   const auto page = written("<html><body/></html>");
-  EXPECT_NE(refusal_of([&] { read_openrocket(page); }, ExitCode::bad_data).find("neither a design"),
+  EXPECT_NE(refusal_of([&] { read_openrocket(page); }, ExitCode::bad_data).find("neither a two_stages"),
             std::string::npos);
 }
 
 TEST_F(OpenRocket, ADeviceIsChosenByNumberOrNameAndTheChoiceIsListed) {
-  const OpenRocketFile file = read_openrocket(design);
+  const OpenRocketFile file = read_openrocket(two_stages);
   EXPECT_EQ(choose_device(file, "2").name, "Main");
   EXPECT_EQ(choose_device(file, "Drogue").name, "Drogue");
   for (const char* wanted : {"", "Pilot", "0", "4"}) {
@@ -173,7 +171,7 @@ TEST_F(OpenRocket, ADeviceIsChosenByNumberOrNameAndTheChoiceIsListed) {
 }
 
 TEST_F(OpenRocket, TheCaseHasTheDeviceAndItsDragArea) {
-  const OpenRocketFile file = read_openrocket(design);
+  const OpenRocketFile file = read_openrocket(two_stages);
   const ImportedCase drogue = import_openrocket(file, choose_device(file, "Drogue"), {}, "rocket.ork");
   const Case given = parse_case(drogue.case_text, "drogue.toml");
   EXPECT_EQ(given.title, "Drogue");
@@ -186,26 +184,28 @@ TEST_F(OpenRocket, TheCaseHasTheDeviceAndItsDragArea) {
   EXPECT_EQ(resolved.materials().canopy.areal_density_kg_m2, 0.067);
   EXPECT_EQ(resolved.materials().line.linear_density_kg_m, 0.0018);
   EXPECT_NE(drogue.case_text.find("# Deployment: apogee, delay 1.5 s"), std::string::npos);
-  EXPECT_FALSE(contains(drogue.changed, "projected"));
+  EXPECT_FALSE(has_sentence(drogue.changed, "projected"));
 }
 
 // A maker's coefficient on the projected area: the drag area stays, and the cloth is larger than the open canopy.
 TEST_F(OpenRocket, ACoefficientOnTheProjectedAreaIsConverted) {
-  const OpenRocketFile file = read_openrocket(design);
+  const OpenRocketFile file = read_openrocket(two_stages);
   const RecoveryDevice& main = choose_device(file, "Main");
-  EXPECT_TRUE(contains(import_openrocket(file, main, {}, "rocket.ork").changed, "--diameter-is projected"));
+  EXPECT_TRUE(
+      has_sentence(import_openrocket(file, main, {}, "rocket.ork").changed, "--diameter-is projected"));
   OpenRocketImportOptions options;
   options.diameter = GivenDiameter::projected;
   const ImportedCase import = import_openrocket(file, main, options, "rocket.ork");
   const Case given = parse_case(import.case_text, "main.toml");
   const double area = nominal_area(given.parachute);
-  EXPECT_NEAR(std::sqrt(4 / pi * area), 2.44 / 0.70, 1e-6);
-  EXPECT_NEAR(given.inflation.drag_coefficient.value() * area, 2.2 * pi / 4 * 2.44 * 2.44, 1e-6);
+  EXPECT_NEAR(std::sqrt(4 / std::numbers::pi * area), 2.44 / 0.70, 1e-6);
+  EXPECT_NEAR(given.inflation.drag_coefficient.value() * area, 2.2 * std::numbers::pi / 4 * 2.44 * 2.44,
+              1e-6);
   EXPECT_NEAR(given.inflation.drag_coefficient.value(), 2.2 * 0.70 * 0.70, 1e-6);
 }
 
 TEST_F(OpenRocket, AStreamerShortLinesAndAWideHoleAreRefused) {
-  const OpenRocketFile file = read_openrocket(design);
+  const OpenRocketFile file = read_openrocket(two_stages);
   EXPECT_NE(refusal_of([&] { import_openrocket(file, file.devices[2], {}, "r.ork"); }, ExitCode::bad_data)
                 .find("r.ork:49: \"Marker\" is a streamer"),
             std::string::npos);

@@ -13,7 +13,7 @@
 namespace ripstop {
 namespace {
 
-constexpr double mass = 22, ground = 200, drogue = 0.3, opened = 6.0;  // [kg], [m], [m2], [m2]
+constexpr double flown_mass = 22, field = 200, under_drogue = 0.3, under_main = 6.0;  // [kg], [m], [m2], [m2]
 
 struct Sensors {
   double rate = 20;       // [1/s]
@@ -28,11 +28,11 @@ struct Sensors {
 /// Down from 3,000 m under the drogue; at 300 m above ground the main fills within 1.2 s.
 std::vector<FlightRow> known_flight() {
   FlightState state;
-  state.height = ground + 3000, state.speed = 1, state.path_angle = 90;
-  const Leg down{[](double, double) { return drogue; }, 1000, 0.01, ground + 300, false};
-  std::vector<FlightRow> rows = fly(state, mass, down);
-  const Leg landing{filling(drogue, opened, 1.2, 2, 1.0), 1000, 0.005, ground, false};
-  for (const FlightRow& row : fly(state, mass, landing)) rows.push_back(row);
+  state.height = field + 3000, state.speed = 1, state.path_angle = 90;
+  const Leg down{[](double, double) { return under_drogue; }, 1000, 0.01, field + 300, false};
+  std::vector<FlightRow> rows = fly(state, flown_mass, down);
+  const Leg landing{filling(under_drogue, under_main, 1.2, 2, 1.0), 1000, 0.005, field, false};
+  for (const FlightRow& row : fly(state, flown_mass, landing)) rows.push_back(row);
   return rows;
 }
 
@@ -50,12 +50,12 @@ FlightRecords measured(const std::vector<FlightRow>& flight, const Sensors& s) {
     if (time < next || time > s.until) continue;
     next += 1 / s.rate;
     if (uniform(random) < s.dropped) continue;
-    const double height = sensed - ground + s.noise * normal(random);
+    const double height = sensed - field + s.noise * normal(random);
     records.height.time.push_back(time);
     records.height.value.push_back(uniform(random) < s.spikes ? 0 : height);
     records.acceleration->time.push_back(time);
     records.acceleration->value.push_back(
-        std::min(s.range, flight[i].force / mass + 0.3 * std::abs(normal(random))));
+        std::min(s.range, flight[i].force / flown_mass + 0.3 * std::abs(normal(random))));
   }
   return records;
 }
@@ -63,13 +63,13 @@ FlightRecords measured(const std::vector<FlightRow>& flight, const Sensors& s) {
 FlightLog analysed(const Sensors& sensors) {
   static const std::vector<FlightRow> flight = known_flight();
   FlightLogSetup setup;
-  setup.mass = mass, setup.mass_uncertainty = 0.1, setup.ground = ground, setup.nominal_diameter = 3;
+  setup.mass = flown_mass, setup.mass_uncertainty = 0.1, setup.ground = field, setup.nominal_diameter = 3;
   return analyse_flight(measured(flight, sensors), setup);
 }
 
 void expect_known(const FlightLog& log) {
   ASSERT_EQ(log.phases.size(), 2u);
-  const double expected[] = {drogue, opened};
+  const double expected[] = {under_drogue, under_main};
   for (int i = 0; i < 2; ++i) {
     ASSERT_TRUE(log.phases[i].drag_area) << log.phases[i].problem;
     EXPECT_NEAR(*log.phases[i].drag_area / expected[i], 1, 0.03) << i;
@@ -98,13 +98,13 @@ TEST(FlightLog, GivesThemWithNoiseDroppedSamplesLagAndSpikes) {
 
 TEST(FlightLog, DragAreasOverHeightScatterAboutThatOfThePhase) {
   const FlightLog log = analysed({});
-  int under_drogue = 0;
+  int points = 0;
   for (const DragAreaAtHeight& point : log.drag_areas) {
-    const double expected = point.height > 320 ? drogue : opened;
-    under_drogue += point.height > 320;
+    const double expected = point.height > 320 ? under_drogue : under_main;
+    points += point.height > 320;
     EXPECT_LT(std::abs(point.drag_area - expected), 5 * point.uncertainty + 0.02 * expected) << point.height;
   }
-  EXPECT_GE(under_drogue, 8);
+  EXPECT_GE(points, 8);
   EXPECT_GE(log.drag_areas.size(), 14u);
 }
 
@@ -114,13 +114,13 @@ TEST(FlightLog, PeakAndFillingTimeAreThoseOfTheOpening) {
   const std::vector<FlightRow> flight = known_flight();
   double peak = 0, steady = 0, rose = 0, full = 0, way = 0;
   for (const FlightRow& row : flight) {
-    if (row.drag_area <= drogue) steady = row.force;
+    if (row.drag_area <= under_drogue) steady = row.force;
     peak = std::max(peak, row.force);
   }
   for (const FlightRow& row : flight) {
-    if (row.drag_area > drogue && rose == 0 && row.force > steady + 0.1 * (peak - steady))
+    if (row.drag_area > under_drogue && rose == 0 && row.force > steady + 0.1 * (peak - steady))
       rose = row.state.time, way = -row.state.distance;
-    if (full == 0 && row.drag_area >= 0.999 * opened) full = row.state.time, way += row.state.distance;
+    if (full == 0 && row.drag_area >= 0.999 * under_main) full = row.state.time, way += row.state.distance;
   }
   EXPECT_NEAR(full - rose, 1, 0.2);
   const FlightLog log = analysed(fast);
@@ -149,7 +149,7 @@ TEST(FlightLog, APhaseThatIsTooShortOrTooNoisyHasNoDragArea) {
   Sensors cut;  // two seconds after the deployment
   double opening = 0;
   for (const FlightRow& row : known_flight())
-    if (row.drag_area < drogue * 1.001) opening = row.state.time;
+    if (row.drag_area < under_drogue * 1.001) opening = row.state.time;
   cut.until = opening + 4;
   const FlightLog ended = analysed(cut);
   ASSERT_EQ(ended.phases.size(), 2u);
@@ -170,7 +170,7 @@ TEST(FlightLog, ARecordWithoutADescentIsRefused) {
   for (int i = 0; i < 1000; ++i)
     level.height.time.push_back(0.05 * i), level.height.value.push_back(100 + i % 2);
   FlightLogSetup setup;
-  setup.mass = mass;
+  setup.mass = flown_mass;
   EXPECT_NE(refusal_of([&] { analyse_flight(level, setup); }, ExitCode::bad_data)
                 .find("a descent of at least 10 s"),
             std::string::npos);

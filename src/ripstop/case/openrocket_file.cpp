@@ -16,7 +16,7 @@
 namespace ripstop {
 namespace {
 
-constexpr int deepest = 200;  // components inside components
+constexpr int deepest_component = 200;  // components inside components
 
 std::string trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r\n");
@@ -24,9 +24,10 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1));
 }
 
-class Reader {
+class OpenRocketReader {
  public:
-  explicit Reader(const std::filesystem::path& path) : path_(path), text_(openrocket_text_of(path)) {}
+  explicit OpenRocketReader(const std::filesystem::path& path)
+      : path_(path), text_(openrocket_text_of(path)) {}
 
   OpenRocketFile run() {
     pugi::xml_document document;
@@ -100,7 +101,7 @@ class Reader {
   }
 
   void visit(const pugi::xml_node& component, const std::string& stage, int depth) {
-    if (depth > deepest) refuse(line_of(component), "has too many components inside one another");
+    if (depth > deepest_component) refuse(line_of(component), "has too many components inside one another");
     for (const pugi::xml_node part : component.child("subcomponents").children()) {
       const std::string kind = part.name();
       if (kind == "parachute" || kind == "streamer") {
@@ -219,7 +220,7 @@ class Reader {
 }  // namespace
 
 OpenRocketFile read_openrocket(const std::filesystem::path& path) {
-  return Reader(path).run();
+  return OpenRocketReader(path).run();
 }
 
 }  // namespace ripstop

@@ -19,8 +19,8 @@ using std::numbers::pi;
 constexpr double projected_ratio = 0.70;
 // On its nominal area no canopy of the handbook has more than 0.95; a larger coefficient is on another area.
 constexpr double largest_on_nominal = 1.2;
-constexpr double usual_deployment_speed = 20;  // [m/s]
-constexpr double usual_density = 1.2;          // [kg/m3]
+constexpr double assumed_speed = 20;     // [m/s]
+constexpr double assumed_density = 1.2;  // [kg/m3]
 
 std::string list_of(const OpenRocketFile& file) {
   std::string list;
@@ -35,10 +35,10 @@ std::string list_of(const OpenRocketFile& file) {
   return list;
 }
 
-class Importer {
+class OpenRocketImporter {
  public:
-  Importer(const OpenRocketFile& file, const RecoveryDevice& device, const OpenRocketImportOptions& options,
-           const std::string& source)
+  OpenRocketImporter(const OpenRocketFile& file, const RecoveryDevice& device,
+                     const OpenRocketImportOptions& options, const std::string& source)
       : file_(file), d_(device), options_(options), source_(source) {}
 
   ImportedCase run() {
@@ -183,7 +183,7 @@ class Importer {
              visible_line(d_.simulation));
     }
     const double nominal_area = pi / 4 * nominal_ * nominal_;
-    double speed = usual_deployment_speed, coefficient = 0;
+    double speed = assumed_speed, coefficient = 0;
     if (d_.drag_coefficient) {
       const double drag_area = *d_.drag_coefficient * pi / 4 * *d_.diameter * *d_.diameter;
       coefficient = drag_area / nominal_area;
@@ -195,7 +195,7 @@ class Importer {
             "(0.95): it is "
             "probably on the projected area; import with --diameter-is projected, or correct the case",
             coefficient));
-      if (mass) speed = std::sqrt(2 * *mass * standard_gravity / (usual_density * drag_area));
+      if (mass) speed = std::sqrt(2 * *mass * standard_gravity / (assumed_density * drag_area));
     } else {
       result_.not_mapped.push_back(
           d_.automatic ? "C_D \"auto\": OpenRocket's own value is used there; compute it with "
@@ -206,12 +206,12 @@ class Importer {
       text += fmt::format("\n[payload]\nmass_kg = {:.9g}\n", *mass);
     else
       assumed("no payload: the file has no stored simulation with a mass (--mass)");
-    text +=
-        fmt::format("\n[flow]  # assumed\nspeed_m_s = {:.4g}\ndensity_kg_m3 = {:g}\n", speed, usual_density);
+    text += fmt::format("\n[flow]  # assumed\nspeed_m_s = {:.4g}\ndensity_kg_m3 = {:g}\n", speed,
+                        assumed_density);
     if (mass && d_.drag_coefficient)
-      assumed("flow: the rate of descent with this C_D, {:.3g} m/s, at {:g} kg/m3", speed, usual_density);
+      assumed("flow: the rate of descent with this C_D, {:.3g} m/s, at {:g} kg/m3", speed, assumed_density);
     else
-      assumed("flow: {:g} m/s at {:g} kg/m3", speed, usual_density);
+      assumed("flow: {:g} m/s at {:g} kg/m3", speed, assumed_density);
     if (coefficient > 0)
       text +=
           fmt::format("\n[inflation]\ndrag_coefficient = {:.9g}  # on S0, for ripstop load\n", coefficient);
@@ -252,7 +252,7 @@ const RecoveryDevice& choose_device(const OpenRocketFile& file, const std::strin
 
 ImportedCase import_openrocket(const OpenRocketFile& file, const RecoveryDevice& device,
                                const OpenRocketImportOptions& options, const std::string& source) {
-  return Importer(file, device, options, source).run();
+  return OpenRocketImporter(file, device, options, source).run();
 }
 
 }  // namespace ripstop

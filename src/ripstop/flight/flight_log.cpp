@@ -41,14 +41,14 @@ std::vector<double> reduced_heights(const std::vector<double>& heights, double g
   return reduced;
 }
 
-struct Line {
+struct FittedLine {
   double slope = 0, error = 0;  // of -y [m/s]
   std::size_t count = 0;
 };
 
-class Analysis {
+class FlightAnalysis {
  public:
-  Analysis(const FlightRecords& records, const FlightLogSetup& setup)
+  FlightAnalysis(const FlightRecords& records, const FlightLogSetup& setup)
       : records_(records), setup_(setup), t_(records.height.time), h_(records.height.value) {
     rho_ = standard_air(setup.ground).density;
   }
@@ -77,18 +77,18 @@ class Analysis {
   DescentPhase phase_of(double from, double to) const;
   void add_parts(const DescentPhase& phase);
   void measure_opening(LoggedDeployment& d, const DescentPhase& after) const;
-  void fill(LoggedDeployment& d, const Record& load, std::size_t start, double drag_area) const;
+  void fill(LoggedDeployment& d, const SensorRecord& load, std::size_t start, double drag_area) const;
 
   std::size_t index_at(double time) const {
     return static_cast<std::size_t>(std::lower_bound(t_.begin(), t_.end(), time) - t_.begin());
   }
   double height_at(double time) const { return h_[std::min(index_at(time), h_.size() - 1)]; }
-  Line line(double from, double to) const;
+  FittedLine line(double from, double to) const;
   double drag_area_of(double slope) const {
     return 2 * setup_.mass * standard_gravity / (rho_ * slope * slope);
   }
   /// Of a drag area, from the slope and the mass.
-  double relative_error(const Line& l) const {
+  double relative_error(const FittedLine& l) const {
     return std::hypot(2 * l.error / l.slope, setup_.mass_uncertainty / setup_.mass);
   }
 
@@ -101,9 +101,9 @@ class Analysis {
 
 /// Least squares over the samples from `from` to `to`. The residuals of neighbours are correlated, as those of a
 /// filtered sensor are: n samples count as n (1 - r) / (1 + r), r the correlation of neighbours.
-Line Analysis::line(double from, double to) const {
+FittedLine FlightAnalysis::line(double from, double to) const {
   const std::size_t a = index_at(from), b = index_at(to);
-  Line l;
+  FittedLine l;
   l.count = b > a ? b - a : 0;
   if (l.count < fewest_samples) return l;
   const double n = double(l.count);
@@ -125,7 +125,7 @@ Line Analysis::line(double from, double to) const {
 }
 
 /// Samples far from the median of their neighbours are those of a disturbed sensor. The rest gives the noise.
-void Analysis::drop_outliers() {
+void FlightAnalysis::drop_outliers() {
   const std::size_t n = t_.size();
   std::vector<double> off(n, 0.0);
   for (std::size_t i = 3; i + 3 < n; ++i) {
@@ -149,7 +149,7 @@ void Analysis::drop_outliers() {
 }
 
 /// From the highest sample to the place where the height no longer falls.
-void Analysis::find_descent() {
+void FlightAnalysis::find_descent() {
   const auto top = std::max_element(h_.begin(), h_.end()) - h_.begin();
   log_.highest_time = t_[static_cast<std::size_t>(top)], log_.highest = h_[static_cast<std::size_t>(top)];
   // The noise: second differences of neighbours, whose variance is six times that of one sample.
@@ -157,7 +157,7 @@ void Analysis::find_descent() {
   for (std::size_t i = 1; i + 1 < h_.size(); ++i) squares += std::pow(h_[i + 1] - 2 * h_[i] + h_[i - 1], 2);
   log_.height_noise = std::sqrt(squares / 6 / double(h_.size() - 2));
   landing_ = t_.back();
-  const Line last = line(t_.back() - event_window, t_.back() + 1e-9);
+  const FittedLine last = line(t_.back() - event_window, t_.back() + 1e-9);
   if (last.count >= fewest_samples && last.slope < std::max(0.3, significant * last.error)) {
     const double end = h_.back() + std::max(1.0, 3 * log_.height_noise);
     std::size_t i = static_cast<std::size_t>(top);
@@ -172,13 +172,13 @@ void Analysis::find_descent() {
                     landing_ - log_.highest_time, shortest_descent));
 }
 
-void Analysis::find_deployments() {
+void FlightAnalysis::find_deployments() {
   struct Candidate {
     double time, ratio, before, after;
   };
   std::vector<Candidate> all;
   for (double t = log_.highest_time + event_window; t < landing_ - event_window; t += 0.05 * event_window) {
-    const Line before = line(t - event_window, t), after = line(t, t + event_window);
+    const FittedLine before = line(t - event_window, t), after = line(t, t + event_window);
     if (before.count < fewest_samples || after.count < fewest_samples || !(before.slope > 0)) continue;
     const bool clear = before.slope - after.slope > significant * std::hypot(before.error, after.error);
     if (clear && after.slope < slowed * before.slope)
@@ -200,13 +200,13 @@ void Analysis::find_deployments() {
 
 /// The part of a phase at its terminal speed: after the settling time of that speed, and later while the slopes of its
 /// halves differ.
-DescentPhase Analysis::phase_of(double from, double to) const {
+DescentPhase FlightAnalysis::phase_of(double from, double to) const {
   DescentPhase p;
   p.begin = from, p.end = to - 0.5 * (to < landing_ ? event_window : 1.0);
-  const Line tail = line(from + 0.6 * (p.end - from), p.end);
+  const FittedLine tail = line(from + 0.6 * (p.end - from), p.end);
   if (tail.count >= fewest_samples && tail.slope > 0)
     p.begin += settling * tail.slope / standard_gravity + 0.5 * event_window;
-  Line whole;
+  FittedLine whole;
   while (true) {
     whole = line(p.begin, p.end);
     p.from_height = height_at(p.begin), p.to_height = height_at(p.end);
@@ -217,7 +217,7 @@ DescentPhase Analysis::phase_of(double from, double to) const {
     }
     p.speed = (p.from_height - p.to_height) / (p.end - p.begin);
     const double middle = 0.5 * (p.begin + p.end);
-    const Line first = line(p.begin, middle), second = line(middle, p.end);
+    const FittedLine first = line(p.begin, middle), second = line(middle, p.end);
     const double apart = std::abs(first.slope - second.slope);
     if (whole.slope > 0 && apart <= same_slope * whole.slope + 3 * std::hypot(first.error, second.error))
       break;
@@ -237,11 +237,11 @@ DescentPhase Analysis::phase_of(double from, double to) const {
   return p;
 }
 
-void Analysis::add_parts(const DescentPhase& phase) {
+void FlightAnalysis::add_parts(const DescentPhase& phase) {
   if (!phase.drag_area) return;
   const double step = std::max(1.0, (phase.end - phase.begin) / parts_of_phase);
   for (double t = phase.begin; t + 0.99 * step < phase.end; t += step) {
-    const Line part = line(t, t + step);
+    const FittedLine part = line(t, t + step);
     if (part.count < fewest_samples || !(part.slope > 0)) continue;
     const double all = drag_area_of(part.slope);
     log_.drag_areas.push_back(
@@ -250,7 +250,7 @@ void Analysis::add_parts(const DescentPhase& phase) {
 }
 
 /// Whether three samples in a row have the largest value of a whole record: the sensor's limit.
-bool is_clipped(const Record& record) {
+bool is_clipped(const SensorRecord& record) {
   const double top = *std::max_element(record.value.begin(), record.value.end());
   int run = 0;
   for (const double value : record.value) {
@@ -261,12 +261,12 @@ bool is_clipped(const Record& record) {
 }
 
 /// The force of the riser, from a load cell or as mass times specific force.
-void Analysis::measure_opening(LoggedDeployment& d, const DescentPhase& after) const {
+void FlightAnalysis::measure_opening(LoggedDeployment& d, const DescentPhase& after) const {
   if (!records_.force && !records_.acceleration) {
     d.problem = "no load cell and no accelerometer";
     return;
   }
-  Record load = records_.force ? *records_.force : *records_.acceleration;
+  SensorRecord load = records_.force ? *records_.force : *records_.acceleration;
   const bool clipped = is_clipped(load);
   if (!records_.force)
     for (double& value : load.value) value *= setup_.mass;
@@ -305,9 +305,10 @@ void Analysis::measure_opening(LoggedDeployment& d, const DescentPhase& after) c
 
 /// From the first rise of the load until 2 F / (rho v^2) is the drag area of the steady descent, with the speed from
 /// dv/dt = g - F / m.
-void Analysis::fill(LoggedDeployment& d, const Record& load, std::size_t start, double drag_area) const {
+void FlightAnalysis::fill(LoggedDeployment& d, const SensorRecord& load, std::size_t start,
+                          double drag_area) const {
   const double rho = standard_air(setup_.ground + d.height).density;
-  const Line before = line(load.time[start] - event_window, load.time[start]);
+  const FittedLine before = line(load.time[start] - event_window, load.time[start]);
   if (before.count < fewest_samples) {
     d.problem = "no filling time: the speed before the opening is not known";
     return;
@@ -337,7 +338,7 @@ FlightLog analyse_flight(const FlightRecords& records, const FlightLogSetup& set
   if (records.height.time.size() < 4 * fewest_samples)
     throw Error(ExitCode::bad_data, fmt::format("{} heights are too few; at least {} are needed",
                                                 records.height.time.size(), 4 * fewest_samples));
-  return Analysis(records, setup).run();
+  return FlightAnalysis(records, setup).run();
 }
 
 }  // namespace ripstop

@@ -10,15 +10,15 @@
 namespace ripstop {
 
 /// Samples of one sensor, times ascending; a dropped sample is left out.
-struct Record {
+struct SensorRecord {
   std::vector<double> time, value;  // [s], SI
 };
 
 /// All records have one clock. The acceleration is the specific force that an accelerometer measures, its magnitude:
 /// g at rest.
 struct FlightRecords {
-  Record height;                              // above the ground [m]
-  std::optional<Record> acceleration, force;  // [m/s2], of the riser [N]
+  SensorRecord height;                              // above the ground [m]
+  std::optional<SensorRecord> acceleration, force;  // [m/s2], of the riser [N]
 };
 
 struct FlightLogSetup {

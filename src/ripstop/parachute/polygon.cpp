@@ -12,8 +12,11 @@
 #include "ripstop/parachute/gored.h"
 
 namespace ripstop {
+namespace {
 
 using std::numbers::pi;
+
+}  // namespace
 
 void describe(Fields& fields, Polygon& canopy) {
   fields

@@ -50,6 +50,23 @@ TEST(Size, HasTheSourceOfItsDragCoefficient) {
   EXPECT_EQ(run_size(given).drag_source, "given");
 }
 
+// A maker's coefficient on the projected area has the same drag area as the smaller one on S0.
+TEST(Size, ACoefficientOnTheProjectedAreaIsConverted) {
+  const auto all = family_drags();
+  const auto flat =
+      std::find_if(all.begin(), all.end(), [](const FamilyDrag& d) { return d.family == "flat-circular"; });
+  ASSERT_NE(flat, all.end());
+  SizeRequest on_projected = sized(), on_nominal = sized();
+  on_projected.drag_coefficient = 1.5;
+  on_projected.drag_coefficient_on = DragReference::projected;
+  on_nominal.drag_coefficient = 1.5 * flat->projected_ratio * flat->projected_ratio;
+  const SizeResult r = run_size(on_projected);
+  EXPECT_DOUBLE_EQ(r.nominal_diameter, run_size(on_nominal).nominal_diameter);
+  EXPECT_NE(r.drag_source.find("given as 1.5 on the projected area"), std::string::npos) << r.drag_source;
+  on_projected.drag_coefficient.reset();
+  EXPECT_NE(refused(on_projected).find("needs --drag-coefficient"), std::string::npos);
+}
+
 // C_D D^2 is the same for the same load at the same speed: with more drag the canopy is smaller.
 TEST(Size, TheHandbooksDiametersHaveTheSameDragAreaAsTheOneFound) {
   const SizeResult r = run_size(sized());

@@ -6,7 +6,8 @@ const Page = (() => {
   let shapes = null;  // the one ShapeSection, moved to the run that is shown
   const sections = [];
   const figures = [];
-  const kinds = { opening: "Opening", flight: "Flight", steady: "Steady run", size: "Sizing", stability: "Stability" };
+  const kinds = { opening: "Opening", flight: "Flight", steady: "Steady run", size: "Sizing", stability: "Stability",
+    "flight-log": "Flight log" };
 
   function headline(run) {
     const cards = run.headline.map((key) => run.values.find((value) => value.key === key)).filter((value) => value && value.value !== null);

@@ -341,7 +341,14 @@ void take_coefficient(const SizeRequest& request, const FamilyDrag& drag, SizeRe
     r.drag_source = fmt::format("in descent (flown): {:.3f} +- {:.3f} over {} half-swings{}; {}", flown,
                                 drag.flown->standard_error, drag.flown->half_swings, how, drag.flown->made);
   };
-  if (request.drag_coefficient) {
+  if (request.drag_coefficient_on == DragReference::projected && !request.drag_coefficient)
+    throw Error(ExitCode::usage, "--drag-coefficient-on projected needs --drag-coefficient");
+  if (request.drag_coefficient && request.drag_coefficient_on == DragReference::projected) {
+    const double ratio = drag.projected_ratio;
+    r.drag_basis = "given", r.drag_coefficient = *request.drag_coefficient * ratio * ratio;
+    r.drag_source = fmt::format("given as {:g} on the projected area; projected / nominal diameter {:.3f}, {}",
+                                *request.drag_coefficient, ratio, drag.made);
+  } else if (request.drag_coefficient) {
     r.drag_basis = "given", r.drag_source = "given", r.drag_coefficient = *request.drag_coefficient;
   } else if (request.basis == DragBasis::descent && !drag.flown) {
     throw Error(ExitCode::usage,
@@ -382,6 +389,7 @@ std::vector<FamilyDrag> family_drags() {
                       row.at("density_kg_m3"),
                       fmt::format("{}, {}", data.at("made_by").get<std::string>(),
                                   data.at("made_on").get<std::string>())};
+      drag.projected_ratio = row.at("projected_over_nominal_diameter");
       const auto& handbook = row.at("handbook_drag_coefficient");
       if (!handbook.is_null()) drag.handbook = {handbook.at(0).get<double>(), handbook.at(1).get<double>()};
       drag.flown = flown_drag(drag.family, row.value("canopy_material", ""));

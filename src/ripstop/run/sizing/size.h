@@ -31,6 +31,7 @@ struct FamilyDrag {
   std::optional<std::array<double, 2>> handbook;
   double speed = 0, density = 0;        // of that run [m/s], [kg/m3]
   std::string made;                     // command and machine
+  double projected_ratio = 0;           // projected over nominal diameter in that run
   std::optional<FlownDrag> flown = {};  // in descent, with the cloth of the example
 };
 
@@ -39,6 +40,9 @@ struct FamilyDrag {
 enum class DragBasis { safe, axial, descent };
 /// Throws Error(io) when the file is missing, Error(bad_data) when it is broken.
 std::vector<FamilyDrag> family_drags();
+
+/// Area of a drag coefficient: S0, or that of the circle of the open canopy, spill hole included.
+enum class DragReference { nominal, projected };
 
 struct SizeRequest {
   double payload_mass = 0;  // [kg]
@@ -51,6 +55,7 @@ struct SizeRequest {
   std::optional<std::string> line_material;
   double packing_density = packed_by_hand;  // [kg/m3]
   DragBasis basis = DragBasis::safe;
+  DragReference drag_coefficient_on = DragReference::nominal;
 };
 
 /// One run of --verify.

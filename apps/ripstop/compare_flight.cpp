@@ -1,0 +1,117 @@
+// ripstop compare-flight: drag areas, deployments and opening loads from the logs of a flight.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "case_options.h"
+#include "commands.h"
+#include "json_option.h"
+#include "number_option.h"
+#include "ripstop/case/case.h"
+#include "ripstop/core/error.h"
+#include "ripstop/core/visible.h"
+#include "ripstop/flight/atmosphere.h"
+#include "ripstop/run/flight/measured_flight.h"
+#include "table_options.h"
+
+namespace ripstop {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CompareFlightArguments {
+  MeasuredFlightRequest request;
+  fs::path case_file, out = "flight-log";
+  std::string columns, decimal;
+  double mass_uncertainty_percent = 1;
+  bool json = false;
+};
+
+void print_phases(const MeasuredFlight& f) {
+  fmt::print("{:>6} {:>16} {:>10} {:>26} {:>14}\n", "phase", "heights m", "speed m/s", "drag area m2",
+             "C_D on S0");
+  for (std::size_t i = 0; i < f.phases.size(); ++i) {
+    const DescentPhase& p = f.phases[i];
+    const std::string heights = fmt::format("{:.0f} to {:.0f}", p.from_height, p.to_height);
+    if (p.drag_area)
+      fmt::print("{:>6} {:>16} {:>10.2f} {:>26} {:>14.3f}\n", i + 1, heights, p.speed,
+                 fmt::format("{:.4f} +- {:.4f}", *p.drag_area, *p.drag_area_uncertainty),
+                 *p.drag_area / f.nominal_area);
+    else
+      fmt::print("{:>6} {:>16} {:>10} not known: {}\n", i + 1, heights, "", p.problem);
+  }
+}
+
+void print_result(const MeasuredFlight& f, const fs::path& out) {
+  fmt::print("{}\n  {:.4g} kg ({}), highest {:.0f} m above ground, noise of a height {:.2f} m\n",
+             visible_line(f.title), f.mass, f.mass_from, f.highest, f.height_noise);
+  print_phases(f);
+  for (const LoggedDeployment& d : f.deployments) {
+    fmt::print("deployment at {:.1f} s, {:.0f} m: {:.1f} to {:.1f} m/s", d.time, d.height, d.speed_before,
+               d.speed_after);
+    if (d.peak_load) fmt::print(", peak {:.4g} N", *d.peak_load);
+    if (d.filling_time) fmt::print(", filling time {:.2f} s", *d.filling_time);
+    if (d.filling_distance) fmt::print(" ({:.1f} nominal diameters)", *d.filling_distance);
+    fmt::print("{}\n", d.problem.empty() ? "" : "; " + d.problem);
+  }
+  for (const FlightComparison& c : f.computed)
+    fmt::print("{}: {:.4f} +- {:.4f} m2{}\n", c.run, c.drag_area, c.drag_area_uncertainty,
+               c.difference ? fmt::format(", {:+.1f} % against phase {}", 100 * *c.difference, c.phase) : "");
+  fmt::print("{}\n", (out / "report.html").string());
+}
+
+int compare(CompareFlightArguments& options) {
+  options.request.columns = table::parse_columns(options.columns);
+  options.request.decimal = table::parse_decimal(options.decimal);
+  options.request.mass_uncertainty = options.mass_uncertainty_percent / 100;
+  const MeasuredFlight flight = compare_flight(read_settings(options.case_file), options.request);
+  write_measured_flight(options.out, flight);
+  if (options.json)
+    fmt::print("{}", to_json(flight));
+  else
+    print_result(flight, options.out);
+  for (const std::string& note : flight.notes) fmt::print(stderr, "ripstop: {}\n", visible_line(note));
+  return 0;
+}
+
+}  // namespace
+
+void add_compare_flight(CLI::App& app, int& status) {
+  auto options = std::make_shared<CompareFlightArguments>();
+  CLI::App* command = app.add_subcommand(
+      "compare-flight", "Drag areas over height, deployments and opening loads from the logs of a flight");
+  command->footer(
+      "A drag area needs a part of the descent at steady speed; +- is one standard deviation, of height and "
+      "mass.\n"
+      "Example: ripstop compare-flight examples/flight-log/flight.csv --case examples/flight-log/main.toml "
+      "--ground 200");
+  command
+      ->add_option("logs", options->request.logs,
+                   "Tables of time with altitude, acceleration or force, on one clock")
+      ->required();
+  command->add_option("--case", options->case_file, "Case of the parachute (TOML)")->required();
+  add_number(*command, "--mass", options->request.mass, key_range("payload.mass_kg"),
+             "Mass that descends, parachute included [kg] (default: payload and parachute of the case)");
+  add_number(*command, "--mass-uncertainty", options->mass_uncertainty_percent, from(0).up_to(50),
+             "Standard deviation of the mass [%]");
+  add_number(*command, "--ground", options->request.ground, from(lowest_height).up_to(highest_height),
+             "Height of the ground above sea level [m]");
+  add_number(
+      *command, "--height-zero", options->request.height_zero, from(-highest_height).up_to(highest_height),
+      "Height above ground where the log reads 0 [m]; the negative height of the ground for a log above "
+      "sea level");
+  add_number(*command, "--body-drag-area", options->request.body_drag_area, from(0).up_to(100),
+             "Drag area of everything but the canopies [m2]");
+  command->add_option("--run", options->request.runs,
+                      "Folder of a finished run of ripstop steady; repeatable");
+  add_table_options(*command, options->columns, options->decimal, "altitude=Hoehe [m]");
+  command->add_option("--out", options->out,
+                      "Folder for report, plots and result.json (default: flight-log)");
+  add_json_option(*command, options->json);
+  command->callback([options, &status] { status = compare(*options); });
+}
+
+}  // namespace ripstop
