@@ -7,7 +7,7 @@ PREFIX ?= /usr/local
 # Packages for building and running, and those only for the tests and benchmarks.
 PACKAGES := build-essential cmake ninja-build pkg-config libtomlplusplus-dev libcli11-dev libfmt-dev \
   libeigen3-dev nlohmann-json3-dev libnlopt-dev libhwy-dev libpng-dev libcairo2-dev fonts-dejavu-core libxxhash-dev zlib1g-dev \
-  libpugixml-dev libminizip-dev \
+  libpugixml-dev libminizip-dev libcpp-httplib-dev \
   openfoam openmpi-bin
 SLURM_PACKAGES := slurmctld slurmd slurm-client munge
 FUZZ_PACKAGES := clang libclang-rt-dev
@@ -26,9 +26,10 @@ DOCS_PACKAGES := mkdocs-material libjs-katex fonts-katex doxygen
 # The same where there is no apt, from packages.fedoraproject.org and archlinux.org/packages; not tested. Neither has OpenFOAM.
 FEDORA := gcc-c++ make cmake ninja-build pkgconf-pkg-config tomlplusplus-devel cli11-devel fmt-devel eigen3-devel json-devel \
   NLopt-devel highway-devel libpng-devel cairo-devel dejavu-sans-fonts xxhash-devel zlib-devel \
-  pugixml-devel minizip-ng-compat-devel
+  pugixml-devel minizip-ng-compat-devel cpp-httplib-devel
 FEDORA_CHECK := gtest-devel google-benchmark-devel python3-devel pybind11-devel python3-numpy python3-jsonschema
-ARCH := base-devel cmake ninja tomlplusplus cli11 fmt eigen nlohmann-json nlopt highway libpng cairo ttf-dejavu xxhash zlib pugixml minizip
+ARCH := base-devel cmake ninja tomlplusplus cli11 fmt eigen nlohmann-json nlopt highway libpng cairo ttf-dejavu xxhash zlib pugixml minizip \
+  cpp-httplib
 ARCH_CHECK := gtest benchmark python pybind11 python-numpy python-jsonschema
 
 export PATH := /usr/bin:$(PATH)

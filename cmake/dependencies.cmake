@@ -40,6 +40,8 @@ if(PkgConfig_FOUND)
   pkg_check_modules(NLOPT QUIET IMPORTED_TARGET nlopt)
   pkg_check_modules(PUGIXML QUIET IMPORTED_TARGET pugixml)
   pkg_check_modules(MINIZIP QUIET IMPORTED_TARGET minizip)
+  pkg_check_modules(HTTPLIB QUIET IMPORTED_TARGET cpp-httplib)
+  ripstop_check_version(cpp-httplib "${HTTPLIB_FOUND}" "${HTTPLIB_VERSION}" 0.11 "${tested}; the server of ripstop studio")
   ripstop_check_version(Highway "${HWY_FOUND}" "${HWY_VERSION}" 1.0.3 "${tested} of the vector kernels")
   ripstop_check_version(cairo "${CAIRO_FOUND}" "${CAIRO_VERSION}" 1.16 "${tested}")
   ripstop_check_version(xxHash "${XXHASH_FOUND}" "${XXHASH_VERSION}" 0.8

@@ -29,6 +29,7 @@ void add_report(CLI::App& app, int& status);
 void add_fly(CLI::App& app, int& status);
 void add_load(CLI::App& app, int& status);
 void add_size(CLI::App& app, int& status);
+void add_studio(CLI::App& app, int& status);
 void add_export(CLI::App& app, int& status);
 
 }  // namespace ripstop

@@ -136,6 +136,7 @@ int run(int argc, char** argv) {
   add_load(app, status);
   add_size(app, status);
   add_export(app, status);
+  add_studio(app, status);
   return written(parse(app, argc, argv, status));
 }
 

@@ -236,6 +236,7 @@ ProcessResult run_process(const ProcessRequest& request) {
     const int ready = poll(&waiting, 1, static_cast<int>(kLookAround.count()));
     if (ready > 0) open = reader.take(output.read_end());
     pass_lines();
+    if (request.keep_going && !request.keep_going()) result.cancelled = true;
     if (ready == 0 && group.child_ended()) open = false;  // a descendant may hold the pipe for ever
     if (request.time_limit_s > 0 && seconds_since(began) > request.time_limit_s && !group.child_ended()) {
       result.timed_out = true;
@@ -246,6 +247,10 @@ ProcessResult run_process(const ProcessRequest& request) {
     reader.finish();
     pass_lines();
     while (!group.child_ended()) {  // it closed its output but still runs
+      if (request.keep_going && !request.keep_going()) {
+        result.cancelled = true;
+        break;
+      }
       if (request.time_limit_s > 0 && seconds_since(began) > request.time_limit_s) {
         result.timed_out = true;
         break;

@@ -16,6 +16,8 @@ struct ProcessRequest {
   double time_limit_s = 0;                                       // 0: none
   /// Standard output and error together, a line at a time; false ends the program and all it started.
   std::function<bool(const std::string& line)> on_line;
+  /// Called ten times a second at least; false ends the program and all it started.
+  std::function<bool()> keep_going = {};
 };
 
 struct ProcessResult {

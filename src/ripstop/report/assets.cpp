@@ -1,13 +1,9 @@
 #include "ripstop/report/assets.h"
 
-// The files become data of this object as they are; RIPSTOP_REPORT_DIR is set where this file is compiled.
-// NOLINTBEGIN(bugprone-macro-parentheses): the macro contains a declared name
-#define RIPSTOP_ASSET(symbol, file)                                                                     \
-  __asm__(".section .rodata\n.global " #symbol "\n" #symbol ":\n.incbin \"" RIPSTOP_REPORT_DIR "/" file \
-          "\"\n.global " #symbol "_end\n" #symbol "_end:\n.byte 0\n.previous\n");                       \
-  extern "C" const char symbol[];                                                                       \
-  extern "C" const char symbol##_end[];
-// NOLINTEND(bugprone-macro-parentheses)
+#include "ripstop/core/embedded.h"
+
+// RIPSTOP_REPORT_DIR is set where this file is compiled.
+#define RIPSTOP_ASSET(symbol, file) RIPSTOP_EMBEDDED(symbol, RIPSTOP_REPORT_DIR "/" file)
 
 RIPSTOP_ASSET(ripstop_report_skeleton, "page/page.html")
 RIPSTOP_ASSET(ripstop_report_uplot_css, "vendor/uplot.min.css")
@@ -29,32 +25,30 @@ RIPSTOP_ASSET(ripstop_report_main, "page/main.js")
 
 namespace ripstop {
 
-#define RIPSTOP_TEXT(symbol) std::string_view(symbol, static_cast<std::size_t>(symbol##_end - (symbol)))
-
 std::string_view report_skeleton() {
-  return RIPSTOP_TEXT(ripstop_report_skeleton);
+  return RIPSTOP_EMBEDDED_TEXT(ripstop_report_skeleton);
 }
 
 std::vector<Asset> report_styles() {
-  return {{"uplot.min.css", RIPSTOP_TEXT(ripstop_report_uplot_css)},
-          {"page.css", RIPSTOP_TEXT(ripstop_report_css)},
-          {"print.css", RIPSTOP_TEXT(ripstop_report_print_css)}};
+  return {{"uplot.min.css", RIPSTOP_EMBEDDED_TEXT(ripstop_report_uplot_css)},
+          {"page.css", RIPSTOP_EMBEDDED_TEXT(ripstop_report_css)},
+          {"print.css", RIPSTOP_EMBEDDED_TEXT(ripstop_report_print_css)}};
 }
 
 std::vector<Asset> report_scripts() {
-  return {{"three.min.js", RIPSTOP_TEXT(ripstop_report_three)},
-          {"uplot.min.js", RIPSTOP_TEXT(ripstop_report_uplot)},
-          {"data.js", RIPSTOP_TEXT(ripstop_report_data)},
-          {"elements.js", RIPSTOP_TEXT(ripstop_report_elements)},
-          {"colours.js", RIPSTOP_TEXT(ripstop_report_colours)},
-          {"plots.js", RIPSTOP_TEXT(ripstop_report_plots)},
-          {"tables.js", RIPSTOP_TEXT(ripstop_report_tables)},
-          {"materials.js", RIPSTOP_TEXT(ripstop_report_materials)},
-          {"canopy.js", RIPSTOP_TEXT(ripstop_report_canopy)},
-          {"air.js", RIPSTOP_TEXT(ripstop_report_air)},
-          {"viewer.js", RIPSTOP_TEXT(ripstop_report_viewer)},
-          {"controls.js", RIPSTOP_TEXT(ripstop_report_controls)},
-          {"main.js", RIPSTOP_TEXT(ripstop_report_main)}};
+  return {{"three.min.js", RIPSTOP_EMBEDDED_TEXT(ripstop_report_three)},
+          {"uplot.min.js", RIPSTOP_EMBEDDED_TEXT(ripstop_report_uplot)},
+          {"data.js", RIPSTOP_EMBEDDED_TEXT(ripstop_report_data)},
+          {"elements.js", RIPSTOP_EMBEDDED_TEXT(ripstop_report_elements)},
+          {"colours.js", RIPSTOP_EMBEDDED_TEXT(ripstop_report_colours)},
+          {"plots.js", RIPSTOP_EMBEDDED_TEXT(ripstop_report_plots)},
+          {"tables.js", RIPSTOP_EMBEDDED_TEXT(ripstop_report_tables)},
+          {"materials.js", RIPSTOP_EMBEDDED_TEXT(ripstop_report_materials)},
+          {"canopy.js", RIPSTOP_EMBEDDED_TEXT(ripstop_report_canopy)},
+          {"air.js", RIPSTOP_EMBEDDED_TEXT(ripstop_report_air)},
+          {"viewer.js", RIPSTOP_EMBEDDED_TEXT(ripstop_report_viewer)},
+          {"controls.js", RIPSTOP_EMBEDDED_TEXT(ripstop_report_controls)},
+          {"main.js", RIPSTOP_EMBEDDED_TEXT(ripstop_report_main)}};
 }
 
 }  // namespace ripstop

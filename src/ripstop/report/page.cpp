@@ -221,6 +221,12 @@ std::string report_page(const Report& report) {
   }
 }
 
+std::string shape_json(const ShapeView& shape) {
+  Json j = to_json(shape, 1);
+  j["colours"] = colour_table();
+  return j.dump(-1, ' ', true, Json::error_handler_t::replace);
+}
+
 bool is_report(const std::string& page) {
   return page.starts_with(beginning);
 }

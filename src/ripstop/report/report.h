@@ -68,6 +68,9 @@ inline constexpr std::size_t largest_page = 10'000'000;
 /// `largest_page`. No text in it can end a script or start one.
 std::string report_page(const Report& report);
 
+/// A shape and the colour scale as the scripts of the page read them: JSON with packed numbers.
+std::string shape_json(const ShapeView& shape);
+
 /// Whether a file begins as report_page() does.
 bool is_report(const std::string& page);
 

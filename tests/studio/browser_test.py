@@ -1,0 +1,149 @@
+#!/usr/bin/env python3
+"""Studio in a browser: from mass and descent rate to a design, its shape, numbers and pattern, a steady run, its report and RocketPy.
+
+    browser_test.py RIPSTOP [FOLDER]
+
+Screenshots are left in FOLDER."""
+import pathlib
+import shutil
+import sys
+import tempfile
+import time
+import unittest
+
+from studio import ROOT, Studio
+
+sys.path.insert(0, str(ROOT / "tests/report"))
+from browser import Browser  # noqa: E402
+
+PROGRAM = sys.argv[1]
+PICTURES = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else None
+
+
+class StudioPage(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="ripstop-studio-page-"))
+        self.studio = Studio(PROGRAM, self.folder)
+        self.browser = Browser(1280, 800)
+        self.browser.width(1280, 800)
+
+    def tearDown(self):
+        self.browser.close()
+        if self.studio.process.poll() is None:
+            self.studio.end()
+        shutil.rmtree(self.folder)
+
+    def until(self, expression, seconds=90):
+        end = time.time() + seconds
+        while time.time() < end:
+            value = self.browser.evaluate(expression)
+            if value:
+                return value
+            time.sleep(0.1)
+        if PICTURES:
+            self.browser.screenshot(PICTURES / "failed.png")
+        self.fail(f"not within {seconds} s: {expression}; page: {self.browser.evaluate('document.body.innerText')[:2000]}; {self.browser.errors}")
+
+    def open(self):
+        self.browser.call("Page.navigate", url=self.studio.address)
+        self.assertEqual(self.until("document.documentElement?.dataset.ready || ''"), "yes")
+
+    def type_into(self, selector, text):
+        self.browser.evaluate(f"(() => {{ const i = document.querySelector({selector!r}); i.value = {text!r}; i.dispatchEvent(new Event('change')); }})()")
+
+    def click(self, selector):
+        self.until(f"document.querySelector({selector!r}) !== null")
+        self.browser.evaluate(f"document.querySelector({selector!r}).click()")
+
+    def picture(self, name):
+        if not PICTURES:
+            return
+        PICTURES.mkdir(parents=True, exist_ok=True)
+        for theme in ("light", "dark"):
+            self.browser.theme(theme)
+            time.sleep(0.4)
+            self.browser.screenshot(PICTURES / f"{name}-{theme}.png")
+        self.browser.theme("light")
+
+    def shape_number(self):
+        return int(self.browser.evaluate("document.querySelector('[data-part=timing]').dataset.shape || 0"))
+
+    def size_a_case(self):
+        self.open()
+        self.until("document.getElementById('create').open")
+        self.picture("new-case")
+        self.click("#create-go")
+        self.until("document.querySelector('[data-part=timing]').dataset.file === 'my-canopy.toml'")
+        self.until("document.querySelector('[data-part=loads]').dataset.file === 'my-canopy.toml'")
+        self.until("document.querySelector('[data-piece] img') || Studio.design().pieces.children.length")
+
+    def test_a_design_from_mass_and_rate_to_its_run(self):
+        self.size_a_case()
+        file = self.folder / "my-canopy.toml"
+        original = file.read_text()
+        self.picture("design")
+        shapes = self.shape_number()
+
+        # A key changes in place and the shape follows; undo restores every byte.
+        self.type_into("#key-parachute\\\\.mesh\\\\.cloth_nodes", "1000")
+        self.until("!document.getElementById('undo').disabled")
+        self.assertIn("cloth_nodes = 1000", file.read_text())
+        self.assertEqual(sum(a != b for a, b in zip(original.splitlines(), file.read_text().splitlines())), 1)
+        self.until(f"Number(document.querySelector('[data-part=timing]').dataset.shape) > {shapes}")
+        self.click("#undo")
+        self.until("!document.getElementById('redo').disabled")
+        self.until("document.getElementById('undo').disabled")
+        self.assertEqual(file.read_text(), original)
+        self.click("#redo")
+        self.until("!document.getElementById('undo').disabled")
+
+        # A problem is at its field.
+        self.type_into("#key-parachute\\\\.gores", "-3")
+        self.until("document.querySelector('#key-parachute\\\\.gores').getAttribute('aria-invalid') === 'true'")
+        self.assertIn("at least 3", self.browser.evaluate("document.querySelector('[data-key=\"parachute.gores\"] .problem').textContent"))
+        self.picture("problem")
+        self.click("#undo")
+        self.until("document.querySelector('#key-parachute\\\\.gores').getAttribute('aria-invalid') === 'false'")
+
+        # A change by another program is noticed.
+        file.write_text("# by hand\n" + file.read_text())
+        self.until("!document.getElementById('notice').hidden && document.getElementById('notice').textContent.includes('changed outside')")
+        self.assertTrue(self.browser.evaluate("Studio.design().text.value.startsWith('# by hand')"))
+
+        self.click("[data-view=pattern]")
+        self.until("document.querySelector('[data-piece] img').naturalWidth > 0")
+        self.picture("pattern")
+        self.click("[data-view=text]")
+        self.picture("text")
+
+        # A run, a reload in it, and its report.
+        self.click("[data-view=runs]")
+        self.type_into("[data-option=\"--grid\"]", "16,16,24")
+        self.picture("runs")
+        self.click("[data-control=start]")
+        self.until("document.querySelector('.job')?.dataset.state === 'running'")
+        self.open()
+        self.assertEqual(self.browser.evaluate("document.querySelectorAll('.job').length"), 1)
+        self.until("['finished', 'not converged'].includes(document.querySelector('.job')?.dataset.state)", 240)
+        self.picture("runs-done")
+        self.browser.evaluate("[...document.querySelectorAll('.job button')].find((one) => one.textContent === 'Report').click()")
+        self.until("document.querySelector('iframe') !== null")
+        time.sleep(2)
+        self.picture("report")
+        own = f"http://127.0.0.1:{self.studio.port}/"
+        self.assertEqual([url for url in self.browser.requests if not url.startswith((own, "data:", "blob:"))], [])
+        self.assertEqual([error for error in self.browser.errors if "400" not in error], [])
+
+    def test_titles_and_names_are_text(self):
+        hostile = "<img src=x onerror=window.taken=1></script><script>window.taken=1</script>"
+        case = (ROOT / "examples/conical/case.toml").read_text().splitlines()
+        case = [f'title = "{hostile}"' if line.startswith("title") else line for line in case]
+        (self.folder / "a.toml").write_text("\n".join(case) + "\n[unknown]\n'<b>' = \"<i>\"\n")
+        self.open()
+        self.until("!document.getElementById('notice').hidden")
+        self.assertEqual(self.browser.evaluate("document.querySelector('#key-title').value"), hostile)
+        self.assertEqual(self.browser.evaluate("[window.taken ?? 0, document.querySelectorAll('#notice i, #notice b, main img').length]"), [0, 0])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

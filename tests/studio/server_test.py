@@ -1,0 +1,204 @@
+#!/usr/bin/env python3
+"""The server of Studio under requests of its page and of others: it answers only those with its token, Host and Origin, and reads and
+writes nothing outside of its folder.
+
+    server_test.py RIPSTOP"""
+import json
+import pathlib
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+from studio import ROOT, Studio
+
+PROGRAM = sys.argv[1]
+CASE = (ROOT / "examples/flat-circular/case.toml").read_text().replace("cloth_nodes = 12000", "cloth_nodes = 1000  # coarse")
+
+
+class Server(unittest.TestCase):
+    def setUp(self):
+        self.place = pathlib.Path(tempfile.mkdtemp(prefix="ripstop-studio-test-"))
+        self.folder = self.place / "designs"
+        self.folder.mkdir()
+        (self.place / "secret.toml").write_text("title = 'secret'\n")
+        (self.folder / "a.toml").write_text(CASE)
+        (self.folder / "link.toml").symlink_to(self.place / "secret.toml")
+        self.studio = Studio(PROGRAM, self.folder)
+
+    def tearDown(self):
+        if self.studio.process.poll() is None:
+            self.studio.end()
+        shutil.rmtree(self.place)
+
+    def read(self):
+        return self.studio.get("/api/case", file="a.toml")[1]
+
+    def test_the_page_needs_token_host_and_origin(self):
+        s = self.studio
+        self.assertEqual(s.request("GET", f"/?token={s.token}", without=["X-Ripstop-Token"])[0], 200)
+        for path in ("/", "/?token=", f"/?token={s.token[:-1]}0x", f"/?token={s.token}0"):
+            self.assertEqual(s.request("GET", path, without=["X-Ripstop-Token"])[0], 403, path)
+        for headers in ({"X-Ripstop-Token": "0" * 32}, {"Host": f"evil.example:{s.port}"}, {"Host": "127.0.0.1"}, {"Origin": "http://evil.example"},
+                        {"Origin": "null"}, {"Origin": f"https://127.0.0.1:{s.port}"}, {"Origin": f"http://127.0.0.1:{s.port + 1}"}):
+            for method, path in (("GET", "/api/folder"), ("GET", "/api/case?file=a.toml"), ("POST", "/api/case/create")):
+                body = {"file": "b.toml", "family": "conical"} if method == "POST" else None
+                self.assertEqual(s.request(method, path, body, headers)[0], 403, headers)
+        self.assertEqual(s.request("GET", "/api/folder", without=["X-Ripstop-Token"])[0], 403)
+        self.assertEqual(s.request("GET", f"/api/folder?token={s.token}", without=["X-Ripstop-Token"])[0], 403)
+        self.assertEqual(s.request("GET", "/api/folder", without=["Host"])[0], 403)
+        self.assertEqual(s.request("GET", "/api/folder", headers={"Origin": f"http://127.0.0.1:{s.port}"})[0], 200)
+        self.assertFalse((self.folder / "b.toml").exists())
+
+    def test_the_page_permits_no_other_address(self):
+        _, headers, page = self.studio.request("GET", f"/?token={self.studio.token}")
+        policy = headers["Content-Security-Policy"]
+        for part in ("default-src 'none'", "connect-src 'self'", "form-action 'none'", "frame-ancestors 'none'", "base-uri 'none'"):
+            self.assertIn(part, policy)
+        self.assertNotIn("http", policy)
+        self.assertEqual(headers["Referrer-Policy"], "no-referrer")
+        self.assertNotIn(self.studio.token.encode(), page)
+        other = self.studio.request("GET", f"/?token={self.studio.token}")[1]["Content-Security-Policy"]
+        self.assertNotEqual(policy, other)  # the nonce
+
+    def test_nothing_outside_of_the_folder_is_read_or_written(self):
+        s = self.studio
+        for name in ("../secret.toml", "..%2Fsecret.toml", "/etc/passwd", "link.toml", "a.toml/../../secret.toml", "", ".", "..", "a.toml\0", "-a.toml", "a b.toml"):
+            for path in ("/api/case", "/api/shape", "/api/pattern", "/api/load"):
+                status, answer = s.get(path, file=name, mass=1, speed=20)
+                self.assertEqual((status, list(answer)), (400, ["error"]), (path, name))
+            self.assertEqual(s.post("/api/case/create", file=name, family="conical")[0], 400, name)
+            self.assertEqual(s.post("/api/case/create", file="new.toml", family=name)[0], 400, name)
+            self.assertEqual(s.post("/api/jobs/start", name="x", command="steady", case=name, options={})[0], 400, name)
+            self.assertEqual(s.post("/api/jobs/start", name=name, command="steady", case="a.toml", options={})[0], 400, name)
+            self.assertEqual(s.get("/api/report", run=name)[0], 400, name)
+            self.assertEqual(s.get("/api/log", name=name)[0], 400, name)
+            self.assertEqual(s.get("/api/export", run=name, format="rocketpy")[0], 400, name)
+        for path in ("/../secret.toml", "/%2e%2e/secret.toml", "/a.toml", "/runs"):
+            self.assertEqual(s.request("GET", path)[0], 404, path)
+        self.assertEqual(s.request("GET", "/view?key=")[0], 403)
+        self.assertEqual([file.name for file in self.place.iterdir() if file.name != "designs"], ["secret.toml"])
+        self.assertEqual(sorted(file.name for file in self.folder.iterdir()), ["a.toml", "link.toml", "runs"])
+
+    def test_oversized_and_malformed_requests_are_refused(self):
+        s = self.studio
+        try:
+            self.assertEqual(s.request("POST", "/api/case/write", b"{" + b" " * (3 << 20))[0], 413)
+        except ConnectionError:
+            pass  # refused before all of it was sent
+        self.assertEqual(s.request("POST", "/api/case/write", b"{}", {"Content-Length": "99999999999999999999"}, ())[0], 413)
+        self.assertEqual(s.request("POST", "/api/case/write", b"5\r\nhello\r\n0\r\n\r\n", {"Transfer-Encoding": "chunked"})[0], 411)
+        self.assertEqual(s.request("POST", "/api/case/write", b"{}", {"Content-Encoding": "gzip"})[0], 411)
+        self.assertEqual(s.request("POST", "/api/case/write", b"a=b", {"Content-Type": "application/x-www-form-urlencoded"})[0], 415)
+        for body in (b"", b"{", b"[]", b"3", b"\xff\xfe", b'{"file": 3}', b'{"file": "a.toml"}', b"[" * 100000):
+            self.assertEqual(s.request("POST", "/api/case/write", body)[0], 400, body[:20])
+        for method in ("PUT", "DELETE", "OPTIONS", "PATCH"):
+            self.assertIn(s.request(method, "/api/folder")[0], (400, 405), method)
+        for raw in (b"\r\n\r\n", b"GET\r\n\r\n", b"\0" * 5000, b"GET / HTTP/9.9\r\n\r\n", b"GET /" + b"a" * 100000 + b" HTTP/1.1\r\n\r\n"):
+            with socket.create_connection(("127.0.0.1", s.port), timeout=10) as connection:
+                try:
+                    connection.sendall(raw)
+                    connection.shutdown(socket.SHUT_WR)
+                    self.assertNotIn(b" 200 ", connection.recv(200))
+                except ConnectionError:
+                    pass
+        self.assertEqual(s.get("/api/folder")[0], 200)
+        self.assertEqual((self.folder / "a.toml").read_text(), CASE)
+
+    def test_only_the_loopback_interface_listens(self):
+        hosts = {info[4][0] for info in socket.getaddrinfo(socket.gethostname(), None, socket.AF_INET)} - {"127.0.0.1", "127.0.1.1"}
+        for host in hosts:
+            with self.assertRaises(OSError):
+                socket.create_connection((host, self.studio.port), timeout=2)
+
+    def test_a_change_keeps_comments_and_a_conflict_changes_nothing(self):
+        before = self.read()
+        status, after = self.studio.post("/api/case/change", file="a.toml", version=before["version"], changes={"parachute.mesh.cloth_nodes": 1200})
+        self.assertEqual(status, 200)
+        self.assertEqual((self.folder / "a.toml").read_text(), CASE.replace("cloth_nodes = 1000", "cloth_nodes = 1200"))
+        self.assertEqual(after["check"]["case"]["parachute"]["mesh"]["cloth_nodes"], 1200)
+        status, answer = self.studio.post("/api/case/change", file="a.toml", version=before["version"], changes={"parachute.gores": 14})
+        self.assertEqual(status, 409)
+        self.assertIn("has changed", answer["error"])
+        status, undone = self.studio.post("/api/case/write", file="a.toml", version=after["version"], text=before["text"])
+        self.assertEqual((status, undone["version"]), (200, before["version"]))
+        self.assertEqual((self.folder / "a.toml").read_text(), CASE)
+
+    def test_problems_name_their_key(self):
+        before = self.read()
+        self.assertEqual(before["check"]["problems"], [])
+        _, after = self.studio.post("/api/case/change", file="a.toml", version=before["version"], changes={"parachute.gores": -1, "title": "</script><b>"})
+        self.assertFalse(after["check"]["valid"])
+        self.assertEqual([problem["key"] for problem in after["check"]["problems"]], ["parachute.gores"])
+        self.assertEqual(json.loads(after["written"]["title"]), "</script><b>")
+        status, broken = self.studio.post("/api/case/write", file="a.toml", version=after["version"], text="[parachute\n")
+        self.assertEqual((status, broken["written"], broken["check"]["problems"][0]["line"]), (200, None, 1))
+
+    def test_numbers_are_those_of_the_command_line(self):
+        load = self.studio.get("/api/load", file="a.toml", mass=2.4, speed=20)[1]
+        subprocess.run([PROGRAM, "load", str(self.folder / "a.toml"), "--mass", "2.4", "--speed", "20", "--out", str(self.place / "load")], check=True, stdout=subprocess.DEVNULL)
+        self.assertEqual(load, json.loads((self.place / "load/result.json").read_text()))
+        shape = self.studio.get("/api/shape", file="a.toml", nodes=1000, pressure=100)[1]
+        self.assertTrue(shape["result"]["converged"])
+        self.assertEqual(shape["result"]["pressure_pa"], 100)
+        self.assertEqual(shape["shape"]["frames"][0]["points"]["n"], 3 * shape["result"]["nodes"])
+        pattern = self.studio.get("/api/pattern", file="a.toml")[1]
+        self.assertEqual([piece["name"] for piece in pattern["pieces"]], ["gore"])
+        for parameters in ({"mass": "x"}, {"mass": "1e999"}, {"mass": "-1"}, {"mass": "1;ls"}, {"speed": "nan"}):
+            self.assertEqual(self.studio.get("/api/load", **{"file": "a.toml", "mass": 2.4, "speed": 20, **parameters})[0], 400, parameters)
+
+    def test_a_new_case_comes_from_a_family_or_from_mass_and_rate(self):
+        families = self.studio.get("/api/folder")[1]["families"]
+        for family in families:
+            status, case = self.studio.post("/api/case/create", file=f"{family}.toml", family=family)
+            self.assertEqual((status, case["check"].get("problems")), (200, []), family)
+        status, case = self.studio.post("/api/case/size", file="sized.toml", family="conical", mass=2.4, rate=5, height=0)
+        self.assertEqual(status, 200, case)
+        self.assertEqual(case["check"]["case"]["payload"]["mass_kg"], 2.4)
+        self.assertEqual(self.studio.post("/api/case/size", file="sized.toml", family="conical", mass=2.4, rate=5, height=0)[0], 400)
+
+    def test_options_of_a_run_are_no_way_to_other_options(self):
+        for options in ({"--out": "x"}, {"--hostfile": "x"}, {"--batch": "slurm"}, {"--set": "a=b"}, {"case": "x"}, {"": "x"}):
+            status, answer = self.studio.post("/api/jobs/start", name="x", command="steady", case="a.toml", options=options)
+            self.assertEqual(status, 400, options)
+        self.assertEqual(self.studio.post("/api/jobs/start", name="x", command="report", case="a.toml", options={})[0], 400)
+        self.assertEqual(self.studio.get("/api/jobs")[1], [])
+
+    def wait_for(self, name, states, seconds=120):
+        for _ in range(10 * seconds):
+            state = next(job["state"] for job in self.studio.get("/api/jobs")[1] if job["name"] == name)
+            if state in states:
+                return state
+            time.sleep(0.1)
+        return state
+
+    def test_a_run_survives_the_kill_of_the_server(self):
+        start = dict(name="opening", command="inflate", case="a.toml", options={"--pressure": "100", "--duration": "0.3"})
+        self.assertEqual(self.studio.post("/api/jobs/start", **start)[0], 200)
+        self.assertEqual(self.wait_for("opening", ["running"]), "running")
+        with self.assertRaises(RuntimeError):  # a second server on the folder
+            Studio(PROGRAM, self.folder)
+        self.studio.end(signal.SIGKILL)
+        time.sleep(0.5)
+        self.studio = Studio(PROGRAM, self.folder)
+        self.assertEqual(self.wait_for("opening", ["stopped"]), "stopped")
+        self.assertEqual(self.studio.post("/api/jobs/resume", name="opening")[0], 200)
+        self.assertEqual(self.wait_for("opening", ["running"]), "running")
+        self.assertEqual(self.studio.post("/api/jobs/stop", name="opening")[0], 200)
+        self.assertEqual(self.wait_for("opening", ["stopped"]), "stopped")
+
+    def test_ctrl_c_ends_server_and_run(self):
+        start = dict(name="opening", command="inflate", case="a.toml", options={"--pressure": "100"})
+        self.assertEqual(self.studio.post("/api/jobs/start", **start)[0], 200)
+        self.assertEqual(self.wait_for("opening", ["running"]), "running")
+        self.assertEqual(self.studio.end(), 0)
+        record = json.loads((self.folder / "runs/.studio/opening.json").read_text())
+        self.assertEqual(record["state"], "stopped")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
