@@ -1,11 +1,13 @@
 #include "ripstop/fsi/coupled_flow.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "ripstop/core/error.h"
 #include "ripstop/fsi/added_mass.h"
+#include "ripstop/fsi/lattice.h"
 #include "ripstop/fsi/sheet_transfer.h"
 #include "ripstop/fsi/transfer.h"
 
@@ -44,6 +46,56 @@ std::vector<double> least_mass(const Mesh& mesh, const std::vector<Cell>& cells)
     double least = 1e300;
     for (const int node : cell.corner) least = std::min(least, mesh.mass[node] / area[node]);
     result.insert(result.end(), 2, least);
+  }
+  return result;
+}
+
+// Widths of the flow's cells over which the air sees the velocity of the cloth smoothed.
+constexpr double smoothed_over = 0.5;
+
+/// Cells of cloth, without those that have none: centre, area vector and velocity.
+struct MovingCells {
+  std::vector<Vec3> centre, area, velocity;
+};
+
+/// Visits the shares, together 1, of a unit vector in the six directions of the axes.
+template <class Visit>
+void shares_of_directions(Vec3 normal, const Visit& visit) {
+  const double n[] = {normal.x, normal.y, normal.z};
+  for (int axis = 0; axis < 3; ++axis)
+    if (n[axis] != 0) visit(2 * axis + (n[axis] < 0), n[axis] * n[axis]);
+}
+
+// Mean by area over the cloth within `width` that has the same orientation. A face of the flow represents many cells of
+// cloth and must not have the velocity of one of them: the load, which is smooth on that scale, could not stop it. The
+// operation is symmetric with respect to the areas, so it increases no velocity.
+std::vector<Vec3> smoothed_velocity(const MovingCells& cells, double width) {
+  struct Sum {
+    double area = 0;  // [m2]
+    Vec3 swept;       // [m3/s]
+  };
+  std::vector<std::array<Sum, 6>> sums(1);    // of points with cloth about them
+  Lattice<int> lattice(cells.centre, width);  // which of the sums; 0: none yet
+  const auto each = [&](std::size_t c, const auto& visit) {
+    const double area = norm(cells.area[c]);
+    if (!(area > 0)) return;
+    shares_of_directions(cells.area[c] / area, [&](int direction, double of_direction) {
+      lattice.about(cells.centre[c], [&](int& point, double share) {
+        if (point == 0) point = static_cast<int>(sums.size()), sums.emplace_back();
+        visit(sums[point][direction], share * of_direction, area);
+      });
+    });
+  };
+  for (std::size_t c = 0; c < cells.centre.size(); ++c)
+    each(c, [&](Sum& sum, double share, double area) {
+      sum.area += share * area, sum.swept += share * area * cells.velocity[c];
+    });
+  std::vector<Vec3> result = cells.velocity;
+  for (std::size_t c = 0; c < cells.centre.size(); ++c) {
+    if (norm(cells.area[c]) > 0) result[c] = {};
+    each(c, [&](const Sum& sum, double share, double) {
+      if (share > 0) result[c] += share / sum.area * sum.swept;
+    });
   }
   return result;
 }
@@ -89,19 +141,35 @@ Loads CoupledFlow::last_load(const AirMemory& memory) const {
   return load;
 }
 
-// The Robin condition: v_n = v_n,predicted + compliance (p - p_last), compliance = mean_share dt / (mass an area).
-SheetMotion CoupledFlow::sheet_motion(const ClothMotion& predicted, double length,
-                                      const AirMemory& memory) const {
-  const bool first = memory.pressure.empty();
+// The Robin condition: v_n = v_n,predicted + compliance (p - p_last), compliance = mean_share dt / (mass an area). On
+// folded cloth most of the last load is traction, which the drop of the faces contains: the motion of the sheet is
+// that without the tractions, else the air would respond to them twice.
+SheetMotion CoupledFlow::sheet_motion(const std::vector<Vec3>& positions, const ClothMotion& predicted,
+                                      double length, const AirMemory& memory) const {
   SheetMotion motion;
+  MovingCells cells;
+  std::vector<double> area_about(node_mass_.size(), 0.0);  // every node [m2]
+  for (const Cell& cell : cells_) {
+    if (cell.corner[0] < 0) continue;
+    const auto& [a, b, c, d] = cell.corner;
+    cells.area.push_back(area_vector(positions[a], positions[b], positions[c], positions[d]));
+    for (const int node : cell.corner) area_about[node] += 0.25 * norm(cells.area.back());
+  }
   for (const double mass : mass_) motion.yields.push_back(mean_share(predicted.steps) * length / mass);
   for (std::size_t c = 0; c < cells_.size(); ++c) {
     if (cells_[c].corner[0] < 0) continue;
-    Vec3 mean;
-    for (const int node : cells_[c].corner) mean += 0.25 * predicted.velocity[node];
-    motion.velocity.insert(motion.velocity.end(), 2, mean);
-    motion.pressure.insert(motion.pressure.end(), 2, first ? 0 : memory.pressure[c]);
+    const double compliance = motion.yields[2 * cells.centre.size()];  // two triangles a cell
+    Vec3 centre, velocity;
+    for (const int node : cells_[c].corner) {
+      centre += 0.25 * positions[node], velocity += 0.25 * predicted.velocity[node];
+      if (!memory.force.empty() && area_about[node] > 0)
+        velocity -= 0.25 * compliance / area_about[node] * memory.force[node];
+    }
+    cells.centre.push_back(centre), cells.velocity.push_back(velocity);
+    motion.pressure.insert(motion.pressure.end(), 2, memory.pressure.empty() ? 0 : memory.pressure[c]);
   }
+  for (const Vec3 velocity : smoothed_velocity(cells, smoothed_over * cell_width()))
+    motion.velocity.insert(motion.velocity.end(), 2, velocity);
   return motion;
 }
 
@@ -109,7 +177,7 @@ FlowStep CoupledFlow::step(const std::vector<Vec3>& positions, const ClothMotion
                            const Surroundings& surroundings, AirMemory& memory) {
   flow_.set_density_ratio(surroundings.density_ratio);
   surface_ = surface_of(cells_, positions);
-  flow_.place(surface_, sheet_motion(predicted, length, memory));
+  flow_.place(surface_, sheet_motion(positions, predicted, length, memory));
   if (surroundings.moves) flow_.stream(surroundings.stream, surroundings.gained);
   ++memory.steps;
   return flow_.step(length);

@@ -146,7 +146,8 @@ class CoupledFlow {
 
  private:
   double cell_width() const;  // [m]
-  SheetMotion sheet_motion(const ClothMotion& predicted, double length, const AirMemory& memory) const;
+  SheetMotion sheet_motion(const std::vector<Vec3>& positions, const ClothMotion& predicted, double length,
+                           const AirMemory& memory) const;
 
   std::shared_ptr<FlowEngine> engine_;
   FlowGrid grid_;
