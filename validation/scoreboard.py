@@ -100,6 +100,10 @@ def families(board):
         value = row["drag coefficient in time, standard error"]
         board.add("comparison with a range", f"$C_D$, {row['example']}, unsteady", row["Knacke, in descent"], value,
                   beyond(number(value), row["Knacke, in descent"]), "make validate-families-in-time", "families-in-time")
+    for row in tables("flights")[0]:
+        if reference := row["Knacke C_D0"]:
+            board.add("comparison with a range", f"$C_D$ in free flight, {row['family']}, {row['cloth CFM']} CFM", reference, row["C_D0 in descent"],
+                      beyond(number(row["C_D0 in descent"]), reference), "make validate-flights", "flights")
     for row in tables("families-openings")[0]:
         board.add("comparison with a range", f"peak load over $q S_0$, {row['example'].split(',')[0]}", row["Knacke C_x C_D"], row["peak over q S0"],
                   beyond(number(row["peak over q S0"]), row["Knacke C_x C_D"]), "make validate-openings", "families-openings")

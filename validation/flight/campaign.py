@@ -135,12 +135,11 @@ def kind_known(interval):
 
 
 def families_flown(results):
-    """Family, flight and result; a family that has not flown with the cloth of its case is that of F-111."""
+    """Family, flight and result, with the cloth of the case and with F-111."""
     for family in FAMILIES:
         for name in (family, f"{family}-f-111"):
             if name in results:
                 yield family, name, results[name]
-                break
 
 
 def families_table(results):
@@ -156,19 +155,19 @@ def families_table(results):
                      number(r, "glide_ratio", "glide_ratio_standard_error", 2), oscillation(r), printed(angle, "g"), kind,
                      "" if r["largest_oscillation_deg"] is None else f"{r['largest_oscillation_deg']:.0f}",
                      number(r, "oscillation_period_s", "oscillation_period_standard_error_s", 1), str(r["half_swings"])])
-    return tables.table(["family", "cloth CFM", "flight s", "rate of descent m/s", "C_D0 on the axis", "C_D0 in descent", "Knacke", "agreement", "glide ratio",
-                         "mean oscillation deg", "Knacke", "kind", "largest deg", "period s", "half-swings"], rows)
+    return tables.table(["family", "cloth CFM", "flight s", "rate of descent m/s", "C_D0 on the axis", "C_D0 in descent",
+                         "Knacke C_D0", "agreement", "glide ratio", "mean oscillation deg", "Knacke deg", "kind", "largest deg", "period s", "half-swings"], rows)
 
 
 def count_line(results):
-    """How many families agree, of those for which a value is known."""
+    """How many flights agree, of those for which a value is known."""
     flown = list(families_flown(results))
     with_range = [r for _, _, r in flown if agreement(r)]
     close = sum(abs(beyond(r["descent_drag_coefficient"], *r["known_drag_coefficient"])) <= 0.05 for r in with_range)
     angles = [(r["mean_oscillation_deg"], KNACKE_ANGLE[family]) for family, _, r in flown
               if family in KNACKE_ANGLE and r["mean_oscillation_deg"] is not None]
     right = sum(kind_of(mean) == kind_known(angle) for mean, angle in angles)
-    return (f"C_D0 in descent inside of Knacke's range or less than 5 % outside: {close} of {len(with_range)}. "
+    return (f"C_D0 in descent inside of Knacke's range or less than 5 % outside: {close} of {len(with_range)} flights. "
             f"Kind of oscillation as known: {right} of {len(angles)}.")
 
 
