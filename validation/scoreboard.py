@@ -25,7 +25,8 @@ the runs and their limits, and [the campaign](ojf.md) has further models. Exact 
 [cloth](cloth.md), [flow](flow.md) and [openings](inflation.md)."""
 
 REFERENCES = """The measurements are those of [NFM] in the Open Jet Facility. The ranges are those of Knacke's manual, not verified in
-print. The page on [bodies of known drag](flow.md#bodies-of-known-drag) gives the references of rigid bodies and porous disks. [Tunnel
+print. The page on [bodies of known drag](flow.md#bodies-of-known-drag) gives the references of rigid bodies and porous disks, and
+[plates at an angle](flow-in-time.md#plates-at-an-angle) that of an inclined plate. [Tunnel
 corrections](../theory/tunnel.md) are theory, and OpenFOAM uses [a fitted mesh](../theory/flow-openfoam.md#sheets)."""
 
 
@@ -108,6 +109,11 @@ def bodies(board):
             porous = "porous" in row["body"]
             board.against("cross-validation" if porous else "comparison", f"$C_D$, {row['body']}, unsteady", row["reference"],
                           row["in time, standard error"], "build-check/bench/bench_bodies in-time 16", "bodies-in-time")
+    plates = {row["angle, deg"]: number(row["C_T"]) for row in tables("plates")[0]}
+    command = "build-check/bench/bench_attack plate 12 0 30 45 60"
+    board.against("comparison", "$C_N$, square plate across the stream, 12 cells, unsteady", "1.170", f"{plates['0']:.3f}", command, "plates")
+    board.against("comparison", "$C_N$ at 30 degrees incidence over that at 90, square plate, unsteady", "1.24",
+                  f"{plates['60'] / plates['0']:.2f}", command, "plates")
     for row in tables("judge")[0]:
         board.against("cross-validation", f"$C_D$ on the frontal area, {row['body']}, OpenFOAM", row["OpenFOAM"], row["drag on its front, built-in"],
                       "make judge", "judge")
