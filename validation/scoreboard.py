@@ -27,7 +27,7 @@ campaign](ojf.md) has further models. Comparisons with exact solutions are on th
 
 REFERENCES = """The measurements in the Open Jet Facility are those of [NFM] ([references](../references.bib)). The ranges are those of Knacke's
 manual, not checked against the print. The references of rigid bodies and porous disks are on [bodies of known
-drag](flow.md#bodies-of-known-drag). Tunnel corrections are compared with [theory](../theory/tunnel.md). OpenFOAM uses a [body-fitted
+drag](flow.md#bodies-of-known-drag), and that of an inclined plate on [plates at an angle](flow-in-time.md#plates-at-an-angle). Tunnel corrections are compared with [theory](../theory/tunnel.md). OpenFOAM uses a [body-fitted
 mesh](../theory/flow-openfoam.md#body-fitted-mesh)."""
 
 
@@ -116,6 +116,11 @@ def bodies(board):
             porous = "porous" in row["body"]
             board.against("cross-validation" if porous else "comparison", f"$C_D$, {row['body']}, unsteady", row["reference"],
                           row["in time, standard error"], "build-check/bench/bench_bodies in-time 16", "bodies-in-time", error=row["off by"])
+    plates = {row["angle, deg"]: number(row["C_T"]) for row in tables("plates")[0]}
+    command = "build-check/bench/bench_attack plate 12 0 30 45 60"
+    board.against("comparison", "$C_N$, square plate across the stream, 12 cells, unsteady", "1.170", f"{plates['0']:.3f}", command, "plates")
+    board.against("comparison", "$C_N$ at 30 degrees incidence over that at 90, square plate, unsteady", "1.24",
+                  f"{plates['60'] / plates['0']:.2f}", command, "plates")
     for row in tables("judge")[0]:
         board.against("cross-validation", f"$C_D$ on the frontal area, {row['body']}, OpenFOAM", row["OpenFOAM"], row["drag on its front, built-in"],
                       "make judge", "judge", error=row["built-in compared with OpenFOAM"])

@@ -76,8 +76,8 @@ TEST(SteadyFiles, HaveTheNumbersOfTheStateThatTheRunEndedIn) {
   const std::vector<LineTension> tensions = line_tensions(mesh, ending.tensions);
   ASSERT_EQ(lines.rows.size(), tensions.size());
   for (std::size_t i = 0; i < tensions.size(); ++i)
-    EXPECT_EQ(lines.rows[i], (std::vector<double>{tensions[i].radial + 1.0, tensions[i].free_tension,
-                                                  tensions[i].largest_tension}));
+    EXPECT_EQ(lines.rows[i], (std::vector<double>{static_cast<double>(tensions[i].number),
+                                                  tensions[i].free_tension, tensions[i].largest_tension}));
 
   // Coefficients: over q, which a square law's drag has in it.
   const double q = result.drag / SquareLawEngine::area;
