@@ -91,9 +91,8 @@ void add_import(CLI::App& app, int& status) {
                                          "OpenRocket (.ork, .orc) to a case file and list "
                                          "converted, changed and omitted parts");
   command->footer(
-      "Examples:\n"
-      "  ripstop import examples/elliptical/elliptical.chute --out elliptical.toml\n"
-      "  ripstop import rocket.ork --device Main --out main.toml");
+      "Example: ripstop import examples/elliptical/elliptical.chute --out elliptical.toml\n"
+      "         ripstop import examples/openrocket/two-stage-recovery.ork --device Drogue --out drogue.toml");
   command->add_option("file", options->file, "Design of openchute (.chute) or OpenRocket (.ork, .orc)")
       ->required();
   command->add_option("--out", options->out, "Case file to write (default: name of the design with .toml)");

@@ -26,7 +26,7 @@ struct GoreStrip {
   bool joined = false;            // sewn to the strip before along the whole edge, else at the radials only
   bool whole = false;             // its mesh has one number of columns
   int crown =
-      -1;  // the highest station, from which the meridian falls toward the vent; -1: it rises all the way
+      -1;  // the highest station, from which the meridian falls toward the vent; -1: it only rises
 
   double length() const { return stations.back().height; }
   double width(double height) const;
