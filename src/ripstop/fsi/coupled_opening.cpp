@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <utility>
 
@@ -22,14 +23,17 @@ void check_width(const FoldedStart& folded, const FlowGrid& grid) {
   const Vec3 cell = grid.spacing({0, 0, 0.5 * grid.size.z + grid.origin.z});
   const double across = std::max(cell.x, cell.y);
   if (width >= least_cells_across * across) return;
+  const double finer = least_cells_across * across / width;
+  const auto cells = [&](int n) { return static_cast<long long>(std::ceil(finer * n)); };
   throw QuantityError(
       ExitCode::usage,
       fmt::format(
-          "the skirt of the folded canopy is {:.3g} m wide, {:.2g} cells of the flow grid ({:.3g} m). At "
-          "least {:g} cells are needed: use cells of at most {:.3g} m or a radius of the folded skirt of at "
-          "least "
-          "{:.3g} m",
-          width, width / across, across, least_cells_across, width / least_cells_across,
+          "the skirt of the folded canopy is {:.3g} m wide, {:.2g} cells of the flow grid ({:.3g} m). "
+          "At least {:g} cells are needed: use cells of at most {:.3g} m, which is about {} x {} x {} "
+          "cells ({:.2g} times the memory and {:.2g} times the time of this grid), or a radius of "
+          "the folded skirt of at least {:.3g} m",
+          width, width / across, across, least_cells_across, width / least_cells_across, cells(grid.nx),
+          cells(grid.ny), cells(grid.nz), std::pow(finer, 3), std::pow(finer, 4),
           0.5 * least_cells_across * across),
       {"flow grid", "radius of the folded skirt"});
 }
