@@ -142,7 +142,7 @@ TEST(SizeChoices, ItsCaseFileHasItsNumbersInComments) {
   has(fmt::format("  # {:.2f} to {:.2f} for the handbook range of C_D", r.handbook_diameter->at(1),
                   r.handbook_diameter->at(0)));
   has(fmt::format("  # {:.2f} % of the area", 100 * r.vent_area / r.nominal_area));
-  has(fmt::format("  # {:.0f} % of its allowable load", 100 * r.line_used));
+  has(fmt::format("  # utilisation {:.0f} % at opening", 100 * r.line_used));
   has(fmt::format(
       "# Parachute {:.3g} kg: cloth {:.3g}, tape {:.3g}, lines {:.3g}; packed {:.3g} litres at {:g} kg/m3",
       r.parachute_mass, r.cloth_mass, r.tape_mass, r.line_mass, 1000 * r.packed_volume,

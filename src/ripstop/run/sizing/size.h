@@ -108,7 +108,7 @@ struct SizeResult {
   std::string design_load_from;
   double line_load_factor = 1;     // largest line load over an equal share
   std::optional<Margins> margins;  // of lines and riser under the design load
-  double line_used = 0;            // load / allowable of the line with the highest load
+  double line_used = 0;            // utilisation of the line with the highest load
   double tape_used = 0;            // the same of the tape, or of the hem in its place
   std::vector<SizeCheck> checks;
   std::vector<StageLoads> opening;                   // by every method
