@@ -85,10 +85,11 @@ class StudioPage(unittest.TestCase):
         shapes = self.shape_number()
 
         # A key changes in place and the shape follows; undo restores every byte.
-        self.type_into("#key-parachute\\\\.mesh\\\\.cloth_nodes", "1000")
+        self.type_into("#key-parachute\\.mesh\\.cloth_nodes", "1000")
         self.until("!document.getElementById('undo').disabled")
         self.assertIn("cloth_nodes = 1000", file.read_text())
-        self.assertEqual(sum(a != b for a, b in zip(original.splitlines(), file.read_text().splitlines())), 1)
+        others = [line for line in original.splitlines() if "cloth_nodes" not in line]
+        self.assertEqual([line for line in file.read_text().splitlines() if line in others], others)
         self.until(f"Number(document.querySelector('[data-part=timing]').dataset.shape) > {shapes}")
         self.click("#undo")
         self.until("!document.getElementById('redo').disabled")
@@ -98,7 +99,7 @@ class StudioPage(unittest.TestCase):
         self.until("!document.getElementById('undo').disabled")
 
         # A problem is at its field.
-        self.type_into("#key-parachute\\\\.gores", "-3")
+        self.type_into("#key-parachute\\.gores", "-3")
         self.until("document.querySelector('#key-parachute\\\\.gores').getAttribute('aria-invalid') === 'true'")
         self.assertIn("at least 3", self.browser.evaluate("document.querySelector('[data-key=\"parachute.gores\"] .problem').textContent"))
         self.picture("problem")

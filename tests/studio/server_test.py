@@ -74,9 +74,10 @@ class Server(unittest.TestCase):
             self.assertEqual(s.post("/api/case/create", file=name, family="conical")[0], 400, name)
             self.assertEqual(s.post("/api/case/create", file="new.toml", family=name)[0], 400, name)
             self.assertEqual(s.post("/api/jobs/start", name="x", command="steady", case=name, options={})[0], 400, name)
-            self.assertEqual(s.post("/api/jobs/start", name=name, command="steady", case="a.toml", options={})[0], 400, name)
             self.assertEqual(s.get("/api/report", run=name)[0], 400, name)
-            self.assertEqual(s.get("/api/log", name=name)[0], 400, name)
+            if name != "link.toml":  # a name that a run may have
+                self.assertEqual(s.post("/api/jobs/start", name=name, command="steady", case="a.toml", options={})[0], 400, name)
+                self.assertEqual(s.get("/api/log", name=name)[0], 400, name)
             self.assertEqual(s.get("/api/export", run=name, format="rocketpy")[0], 400, name)
         for path in ("/../secret.toml", "/%2e%2e/secret.toml", "/a.toml", "/runs"):
             self.assertEqual(s.request("GET", path)[0], 404, path)
