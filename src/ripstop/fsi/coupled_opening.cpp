@@ -29,12 +29,13 @@ void check_width(const FoldedStart& folded, const FlowGrid& grid) {
       ExitCode::usage,
       fmt::format(
           "the skirt of the folded canopy is {:.3g} m wide, {:.2g} cells of the flow grid ({:.3g} m). "
-          "At least {:g} cells are needed: use cells of at most {:.3g} m, which is about {} x {} x {} "
-          "cells ({:.2g} times the memory and {:.2g} times the time of this grid), or a radius of "
-          "the folded skirt of at least {:.3g} m",
-          width, width / across, across, least_cells_across, width / least_cells_across, cells(grid.nx),
-          cells(grid.ny), cells(grid.nz), std::pow(finer, 3), std::pow(finer, 4),
-          0.5 * least_cells_across * across),
+          "At least {:g} cells are needed: use cells of at most {:.3g} m, or a radius of the folded skirt of "
+          "at least {:.3g} m. Such cells are about {} x {} x {}, with {:.2g} times the memory and {:.2g} "
+          "times the "
+          "time of this grid",
+          width, width / across, across, least_cells_across, width / least_cells_across,
+          0.5 * least_cells_across * across, cells(grid.nx), cells(grid.ny), cells(grid.nz),
+          std::pow(finer, 3), std::pow(finer, 4)),
       {"flow grid", "radius of the folded skirt"});
 }
 
