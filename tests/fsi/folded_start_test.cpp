@@ -100,7 +100,9 @@ TEST_P(EveryFamily, FoldsToTheGivenRadiusWithoutStrain) {
   EXPECT_GT(fold.x * was.x + fold.y * was.y, 0);
   const bool ring = family.design.canopy.as<Annular>() != nullptr;
   const double vent_z = start.positions[last.node(last.rows - 1, 0)].z;
-  if (!ring) EXPECT_GT(vent_z, fold.z);
+  if (!ring) {
+    EXPECT_GT(vent_z, fold.z);
+  }
   // The crown of a ring lies downstream of both edges, at nearly half the length of its meridian.
   if (ring) {
     const double crown = start.positions[last.node(last.rows / 2, 0)].z;
