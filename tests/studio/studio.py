@@ -14,6 +14,7 @@ class Studio:
         self.process = subprocess.Popen([program, "studio", str(folder), "--no-browser", *arguments], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
         self.address = self.process.stdout.readline().strip()
         if not self.address:
+            self.process.stdout.close()
             raise RuntimeError(f"no address, exit code {self.process.wait()}")
         parts = urllib.parse.urlsplit(self.address)
         self.port, self.token = parts.port, urllib.parse.parse_qs(parts.query)["token"][0]

@@ -134,6 +134,10 @@ class Design {
       element("tr", { class: apart ? "apart" : undefined }, element("td", {}, text), element("td", {}, typeof value === "number" ? Numbers.shown(value, 4) : value, unit ? ` ${unit}` : "")))));
   }
 
+  static remarks(title, texts) {
+    return element("details", { hidden: !texts.length }, element("summary", {}, `${title} (${texts.length})`), element("ul", {}, texts.map((text) => element("li", {}, text))));
+  }
+
   showFacts(check) {
     const mass = check.mass_kg;
     this.facts.replaceChildren(element("h2", {}, "Parachute"), Design.table([
@@ -141,7 +145,7 @@ class Design {
       ["mass", 1000 * mass.total, "g"], ["cloth", 1000 * mass.cloth, "g", true], ["tape", 1000 * mass.tape, "g", true], ["lines", 1000 * mass.lines, "g", true], ["riser", 1000 * mass.riser, "g", true],
       ["packed volume", this.packed, "l"], ["air", check.density_kg_m3, "kg/m³"], ["nodes of a run", check.nodes], ["cells of its flow", check.flow_cells],
       ["estimated core time", check.core_time_s / 60, "min"]]),
-      check.warnings.length ? element("details", {}, element("summary", {}, `Warnings (${check.warnings.length})`), element("ul", {}, check.warnings.map((text) => element("li", {}, text)))) : null);
+      Design.remarks("Warnings", check.warnings));
   }
 
   draw() {
@@ -208,7 +212,7 @@ class Design {
       const margins = (load.margins?.members ?? []).map((one) => [`margin of safety, ${one.member}`, one.margin_of_safety]);
       this.loads.replaceChildren(Design.table(rows), element("h2", {}, "Opening load by method"), Design.table(methods),
         element("h2", {}, "Design load and margins"), Design.table([["design load", load.design_load_n, "N"], ["trajectory peak", load.peak_load_n, "N"], ...margins]),
-        load.warnings.length ? element("details", {}, element("summary", {}, `Remarks (${load.warnings.length})`), element("ul", {}, load.warnings.map((text) => element("li", {}, text)))) : null);
+        Design.remarks("Remarks", load.warnings));
       this.loads.dataset.file = this.file;
     } catch (error) {
       if (own === this.loadNumber) this.loads.replaceChildren(element("p", { class: "problem" }, error.message));

@@ -63,8 +63,8 @@ const Studio = (() => {
   /** Changes of the folder by other programs and pages, and the progress of runs. */
   async function watch() {
     try {
-      await look();
       await runs.refresh();
+      await look();
       const now = folder.cases.find((one) => one.file === design.file);
       await design.busy;
       if (now && design.data && now.version !== design.data.version) {
@@ -138,8 +138,8 @@ const Studio = (() => {
       event.preventDefault();
       if (event.shiftKey || event.key.toLowerCase() === "y") design.redo(); else design.undo();
     });
-    await look();
     await runs.refresh();
+    await look();
     const last = sessionStorage.getItem("case"), files = folder.cases.map((one) => one.file);
     show(sessionStorage.getItem("view") ?? "design");
     if (files.length) await choose(files.includes(last) ? last : files[0]);
