@@ -41,6 +41,7 @@ class OpenRocket : public testing::Test {
     request.arguments = {"/usr/bin/python3", (folder_.path / "pack.py").string(),
                          (folder_.path / "packed.ork").string(), two_stages.string()};
     request.time_limit_s = 60;
+    request.on_line = [](const std::string&) { return true; };
     EXPECT_EQ(run_process(request).exit_code, 0);
     return folder_.path / "packed.ork";
   }

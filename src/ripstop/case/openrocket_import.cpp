@@ -45,7 +45,11 @@ class OpenRocketImporter {
     if (d_.streamer) refuse("is a streamer; Ripstop computes parachutes only");
     if (!d_.diameter) refuse("has no diameter");
     result_.type = "flat-circular";
-    result_.case_text = head() + canopy() + lines() + materials() + flight();
+    result_.case_text = head();
+    for (const auto part :
+         {&OpenRocketImporter::canopy, &OpenRocketImporter::lines, &OpenRocketImporter::materials,
+          &OpenRocketImporter::flight})  // in this order: the canopy decides the area
+      result_.case_text += (this->*part)();
     for (const std::string& note : file_.notes) result_.not_mapped.push_back(note);
     if (d_.mass)
       result_.not_mapped.push_back(fmt::format(

@@ -38,8 +38,9 @@ bool find_design(unzFile archive) {
   constexpr int any_case = 2;
   if (unzLocateFile(archive, "rocket.ork", any_case) == UNZ_OK) return true;
   std::array<char, 256> name;
+  unz_file_info info;  // required: minizip 1.1 writes to it
   for (int found = unzGoToFirstFile(archive); found == UNZ_OK; found = unzGoToNextFile(archive)) {
-    if (unzGetCurrentFileInfo(archive, nullptr, name.data(), name.size(), nullptr, 0, nullptr, 0) != UNZ_OK)
+    if (unzGetCurrentFileInfo(archive, &info, name.data(), name.size(), nullptr, 0, nullptr, 0) != UNZ_OK)
       return false;
     name.back() = 0;
     if (std::string(name.data()).ends_with(".ork")) return true;
