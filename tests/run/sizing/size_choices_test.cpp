@@ -185,7 +185,7 @@ TEST(SizeChoices, VerifyGivesUpAfterFourRunsAndNamesTheLastRate) {
   ASSERT_EQ(r.checks.size(), 4u);
   EXPECT_EQ(r.checks[0].drag_coefficient, 0.7);
   EXPECT_EQ(r.drag_coefficient, 0.7);
-  EXPECT_EQ(r.drag_source, "computed by --verify at the descent rate");
+  EXPECT_EQ(r.drag_source, "axial, computed by --verify at the descent rate");
 }
 
 TEST(SizeChoices, VerifyIsContentWithinItsTolerance) {

@@ -70,6 +70,7 @@ std::optional<FlowRecord> WindowCheckpoint::resume(Flow& flow) {
 void WindowCheckpoint::look(const Flow& flow, const FlowRecord& record) {
   if (time_on_the_wall() - saved_ < every_) return;
   const fs::path folder = folder_.own(window_folder);
+  make_folder(folder / flow_folders[next_]);
   flow.save(folder / flow_folders[next_]);
   write_sealed(folder / steps_file, to_cbor(Steps{record.steps, next_}, window_format));
   next_ = 1 - next_, saved_ = time_on_the_wall();
