@@ -1,4 +1,4 @@
-// What the page can do with a folder. Each action is a command of this program in a child process, or a change of a case
+// Actions of the page on a folder. Each action is a command of this program in a child process, or a change of a case
 // file; answers are JSON for the page's scripts.
 #pragma once
 
