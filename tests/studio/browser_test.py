@@ -107,7 +107,8 @@ class StudioPage(unittest.TestCase):
         self.until("document.querySelector('#key-parachute\\\\.gores').getAttribute('aria-invalid') === 'false'")
 
         # A change by another program is noticed.
-        file.write_text("# by hand\n" + file.read_text())
+        coarse = file.read_text().replace("cloth_nodes = 1000", "cloth_nodes = 1000\nline_segment_m = 0.3")
+        file.write_text("# by hand\n" + coarse + "\n[coupling]\nthreads = 1\nshape_tolerance_m = 1e-2\ndrag_tolerance = 0.05\n")
         self.until("!document.getElementById('notice').hidden && document.getElementById('notice').textContent.includes('changed outside')")
         self.assertTrue(self.browser.evaluate("Studio.design().text.value.startsWith('# by hand')"))
 

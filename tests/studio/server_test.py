@@ -169,7 +169,7 @@ class Server(unittest.TestCase):
         self.assertEqual(self.studio.post("/api/jobs/start", name="x", command="report", case="a.toml", options={})[0], 400)
         self.assertEqual(self.studio.get("/api/jobs")[1], [])
 
-    def wait_for(self, name, states, seconds=120):
+    def wait_for(self, name, states, seconds=30):
         for _ in range(10 * seconds):
             state = next(job["state"] for job in self.studio.get("/api/jobs")[1] if job["name"] == name)
             if state in states:
@@ -178,26 +178,26 @@ class Server(unittest.TestCase):
         return state
 
     def test_a_run_survives_the_kill_of_the_server(self):
-        start = dict(name="opening", command="inflate", case="a.toml", options={"--pressure": "100", "--duration": "0.3"})
+        start = dict(name="steady", command="steady", case="a.toml", options={})
         self.assertEqual(self.studio.post("/api/jobs/start", **start)[0], 200)
-        self.assertEqual(self.wait_for("opening", ["running"]), "running")
+        self.assertEqual(self.wait_for("steady", ["running"]), "running")
         with self.assertRaises(RuntimeError):  # a second server on the folder
             Studio(PROGRAM, self.folder)
         self.studio.end(signal.SIGKILL)
         time.sleep(0.5)
         self.studio = Studio(PROGRAM, self.folder)
-        self.assertEqual(self.wait_for("opening", ["stopped"]), "stopped")
-        self.assertEqual(self.studio.post("/api/jobs/resume", name="opening")[0], 200)
-        self.assertEqual(self.wait_for("opening", ["running"]), "running")
-        self.assertEqual(self.studio.post("/api/jobs/stop", name="opening")[0], 200)
-        self.assertEqual(self.wait_for("opening", ["stopped"]), "stopped")
+        self.assertEqual(self.wait_for("steady", ["stopped"]), "stopped")
+        self.assertEqual(self.studio.post("/api/jobs/resume", name="steady")[0], 200)
+        self.assertEqual(self.wait_for("steady", ["running"]), "running")
+        self.assertEqual(self.studio.post("/api/jobs/stop", name="steady")[0], 200)
+        self.assertEqual(self.wait_for("steady", ["stopped"]), "stopped")
 
     def test_ctrl_c_ends_server_and_run(self):
-        start = dict(name="opening", command="inflate", case="a.toml", options={"--pressure": "100"})
+        start = dict(name="steady", command="steady", case="a.toml", options={})
         self.assertEqual(self.studio.post("/api/jobs/start", **start)[0], 200)
-        self.assertEqual(self.wait_for("opening", ["running"]), "running")
+        self.assertEqual(self.wait_for("steady", ["running"]), "running")
         self.assertEqual(self.studio.end(), 0)
-        record = json.loads((self.folder / "runs/.studio/opening.json").read_text())
+        record = json.loads((self.folder / "runs/.studio/steady.json").read_text())
         self.assertEqual(record["state"], "stopped")
 
 

@@ -56,9 +56,10 @@ const std::set<std::string>& options_of(const std::string& command) {
 }
 
 std::vector<std::string> arguments_of(const std::string& command, const Json& options) {
+  const std::set<std::string>& allowed = options_of(command);
   std::vector<std::string> arguments;
   for (const auto& [option, value] : options.items()) {
-    if (!options_of(command).contains(option))
+    if (!allowed.contains(option))
       throw Error(ExitCode::usage, fmt::format("{} is not an option of {} here", quoted(option), command));
     if (value.is_boolean()) {
       if (value.get<bool>()) arguments.push_back(option);
