@@ -206,6 +206,11 @@ class Report(unittest.TestCase):
             self.assertAlmostEqual(number(text), method["load_n"], delta=1e-4 * method["load_n"])
         self.assertIsNone(self.js("document.querySelector('#comparison')"))
 
+    def test_a_value_that_is_a_text_is_shown_as_one(self):
+        self.open(self.steady / "report.html")
+        weakest = self.js("Page.shown().node.querySelector('[data-card=weakest_member] dd').innerText.trim()")
+        self.assertEqual(weakest, json.loads((self.steady / "result.json").read_text())["margins"]["weakest_member"])
+
     def test_several_runs_are_compared(self):
         self.open(self.both)
         self.assertEqual(self.js("document.querySelectorAll('#tabs button').length"), 2)

@@ -17,8 +17,9 @@ function element(tag, attributes = {}, ...children) {
 }
 
 const Numbers = (() => {
-  /** `digits` significant ones; whole numbers whole. */
+  /** `digits` significant ones; whole numbers whole; texts as they are. */
   function shown(value, digits = 5) {
+    if (typeof value === "string") return value;
     if (value === null || value === undefined || Number.isNaN(value)) return "–";
     if (!Number.isFinite(value)) return value > 0 ? "∞" : "−∞";
     if (Number.isInteger(value) && Math.abs(value) < 1e7) return minus(String(value));
