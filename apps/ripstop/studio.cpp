@@ -48,10 +48,11 @@ int studio(const StudioArguments& options) {
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&ends, number);
   pthread_sigmask(SIG_BLOCK, &ends, nullptr);
   StudioServer server(options.folder, fs::read_symlink("/proc/self/exe").string(), options.port);
+  std::thread serving([&] { server.serve(); });
+  server.wait_until_ready();  // a stop before that would have no effect
   fmt::print("{}\n", server.address());
   fmt::print(stderr, "Ripstop Studio on {}; end it with Ctrl-C\n", fs::canonical(options.folder).string());
   std::fflush(stdout);
-  std::thread serving([&] { server.serve(); });
   std::thread browser;
   if (!options.no_browser) browser = std::thread(open_browser, server.address());
   int number = 0;

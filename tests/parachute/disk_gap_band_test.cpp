@@ -180,7 +180,8 @@ TEST(DiskGapBand, TooFewNodesForTheSeamsAreRefusedWithTheReason) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::usage);
-    EXPECT_NE(std::string(error.what()).find("cloth_nodes = 500"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("number of cloth nodes = 500"), std::string::npos)
+        << error.what();
     EXPECT_NE(std::string(error.what()).find("multiples of 133"), std::string::npos) << error.what();
   }
 }

@@ -26,6 +26,7 @@ constexpr int rounds_between_looks = 4;
 constexpr double gain_wanted = 0.9;
 constexpr double radius_tolerance = 0.01;
 constexpr int most_corrections = 1;
+constexpr double largest_start_strain = 0.1;  // a result has its own, smaller limit
 
 std::vector<int> pieces_of_cloth(const Mesh& mesh) {
   std::vector<int> piece(mesh.node_count(), -1);
@@ -216,7 +217,18 @@ void GoreFolder::hang_up(FoldedStart& start) const {
 FoldedStart folded_start(const CanopyMesh& mesh, const Folding& folding, int symmetry, ThreadTeam& team) {
   if (is_flat_sheet(mesh)) return fold_sheet(mesh, folding);
   if (folds_without_strain(mesh)) return fold(mesh, folding);
-  return GoreFolder(mesh, folding, symmetry, team).run();
+  FoldedStart start = GoreFolder(mesh, folding, symmetry, team).run();
+  const StartStrain strain = start_strain(with_creases(mesh, start), start.positions);
+  if (strain.largest > largest_start_strain)
+    throw QuantityError(
+        ExitCode::usage,
+        fmt::format(
+            "the cloth of this canopy cannot be folded: the start would have a strain of {:.2g} % ({}), "
+            "at most {:g} % is possible; change radius of the folded skirt or number of folds. The ring "
+            "of an annular canopy cannot be folded at all",
+            100 * strain.largest, strain.part, 100 * largest_start_strain),
+        {"radius of the folded skirt", "number of folds"});
+  return start;
 }
 
 }  // namespace ripstop

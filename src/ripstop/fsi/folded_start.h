@@ -11,7 +11,7 @@ namespace ripstop {
 /// start from the zigzag of zigzag_of_gores() and are relaxed without loads, all springs equally stiff,
 /// until none is strained by more than a part of ten thousand or little more is gained. `symmetry` is the
 /// number of turns that map the canopy as cut onto itself; the folded one keeps those that also map its
-/// folds. Throws as fold().
+/// folds. Throws as fold(), and Error(usage) where a strain above 10 % remains.
 FoldedStart folded_start(const CanopyMesh& mesh, const Folding& folding, int symmetry, ThreadTeam& team);
 
 }  // namespace ripstop

@@ -18,7 +18,6 @@ struct Level {
   int row;
   double gap;  // to the level above, along the seam: 0 within a patch, where the columns have their lengths
   bool same_patch;
-  bool rises = false;  // higher than the level before it, which is nearer to the vent
 };
 
 double row_length(const Level& level, int from, int count) {
@@ -34,11 +33,9 @@ std::vector<Level> levels_of(const Mesh& mesh) {
   for (auto patch = mesh.patches.rbegin(); patch != mesh.patches.rend(); ++patch) {
     for (int row = patch->rows - 1; row >= 0; --row) {
       Level level{&*patch, row, 0, row + 1 < patch->rows};
-      if (!levels.empty()) {
+      if (!level.same_patch && !levels.empty()) {
         const Level& above = levels.back();
-        const Vec3 way = mesh.start[patch->node(row, 0)] - mesh.start[above.patch->node(above.row, 0)];
-        if (!level.same_patch) level.gap = norm(way);
-        level.rises = way.z > 0;
+        level.gap = norm(mesh.start[above.patch->node(above.row, 0)] - mesh.start[patch->node(row, 0)]);
       }
       levels.push_back(level);
     }
@@ -85,9 +82,8 @@ FoldLines fold_lines(const Level& level, const FoldLines& above, bool first, dou
   FoldLines now = above;
   const int lines = static_cast<int>(above.z.size()), width = level.patch->columns / lines;
   const auto hang_from_above = [&](int k) {
-    if (first) return;
-    const double height = rise(column_length(level, k, lines), now.radius[k] - above.radius[k]);
-    now.z[k] = above.z[k] + (level.rises ? height : -height);
+    now.z[k] =
+        first ? 0.0 : above.z[k] - rise(column_length(level, k, lines), now.radius[k] - above.radius[k]);
   };
   for (int k = 0; k < lines; k += 2) {
     now.radius[k] = inner;

@@ -5,9 +5,11 @@
 #include <sys/random.h>
 #include <sys/socket.h>
 
+#include <chrono>
 #include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <thread>
 #include <utility>
 
 #include "ripstop/case/case.h"
@@ -285,6 +287,10 @@ std::string StudioServer::address() const {
 
 void StudioServer::serve() {
   parts_->server.listen_after_bind();
+}
+
+void StudioServer::wait_until_ready() const {
+  while (!parts_->server.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
 void StudioServer::stop() {

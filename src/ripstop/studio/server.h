@@ -22,6 +22,8 @@ class StudioServer {
   std::string address() const;
   /// Serves until stop().
   void serve();
+  /// Until another thread serves.
+  void wait_until_ready() const;
   /// From any thread.
   void stop();
 

@@ -99,7 +99,7 @@ TEST(Flight, RefusesImpossibleFlights) {
   refused([](Case& given) { given.flight.wind.speed_m_s = 80, given.flight.wind.gust_m_s = 30; }, "Mach 0.3");
   refused([](Case& given) { given.flight.wind.exponent = 0.2; }, "flight.height_m");
   refused([](Case& given) { given.flight.velocity_m_s = Vec3{80, 0, -80}; }, "flight.velocity_m_s");
-  refused([](Case& given) { given.payload.mass_kg = 0.01; }, "payload.mass_kg = 0.01");
+  refused([](Case& given) { given.payload.mass_kg = 0.001; }, "payload.mass_kg = 0.001");
 }
 
 // A flight that fails ends with its time, and without means.
