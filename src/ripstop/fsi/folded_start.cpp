@@ -224,8 +224,7 @@ FoldedStart folded_start(const CanopyMesh& mesh, const Folding& folding, int sym
         ExitCode::usage,
         fmt::format(
             "the cloth of this canopy cannot be folded: the start would have a strain of {:.2g} % ({}), "
-            "at most {:g} % is possible; change radius of the folded skirt or number of folds. The ring "
-            "of an annular canopy cannot be folded at all",
+            "at most {:g} % is possible; change radius of the folded skirt or number of folds",
             100 * strain.largest, strain.part, 100 * largest_start_strain),
         {"radius of the folded skirt", "number of folds"});
   return start;

@@ -25,8 +25,7 @@ struct GoreStrip {
   double slot = 0;                // open height below it, to the strip before, spanned by the radials [m]
   bool joined = false;            // sewn to the strip before along the whole edge, else at the radials only
   bool whole = false;             // its mesh has one number of columns
-  int crown =
-      -1;  // the highest station, from which the meridian falls toward the vent; -1: it only rises
+  int crown = -1;  // the highest station, from which the meridian falls toward the vent; -1: it only rises
 
   double length() const { return stations.back().height; }
   double width(double height) const;

@@ -25,7 +25,6 @@ double share_of_step(Vec3 stream) {
 
 }  // namespace
 
-
 // A block's rings and the planes of the fields should fit a second-level cache of 1-2 MB. An even number of
 // blocks keeps two threads busy.
 int block_count(const FlowGrid& grid) {

@@ -346,8 +346,9 @@ void take_coefficient(const SizeRequest& request, const FamilyDrag& drag, SizeRe
   if (request.drag_coefficient && request.drag_coefficient_on == DragReference::projected) {
     const double ratio = drag.projected_ratio;
     r.drag_basis = "given", r.drag_coefficient = *request.drag_coefficient * ratio * ratio;
-    r.drag_source = fmt::format("given as {:g} on the projected area; projected / nominal diameter {:.3f}, {}",
-                                *request.drag_coefficient, ratio, drag.made);
+    r.drag_source =
+        fmt::format("given as {:g} on the projected area; projected / nominal diameter {:.3f}, {}",
+                    *request.drag_coefficient, ratio, drag.made);
   } else if (request.drag_coefficient) {
     r.drag_basis = "given", r.drag_source = "given", r.drag_coefficient = *request.drag_coefficient;
   } else if (request.basis == DragBasis::descent && !drag.flown) {
