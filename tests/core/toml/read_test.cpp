@@ -1,4 +1,6 @@
 // Values that are read from a table are those of the file: every given key has its place.
+#include "ripstop/core/toml/read.h"
+
 #include <gtest/gtest.h>
 
 #include <map>
@@ -6,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "ripstop/core/toml/read.h"
 #include "toml_keys.h"
 
 namespace ripstop {

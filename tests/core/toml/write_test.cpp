@@ -1,9 +1,10 @@
 // A written table reads back, and is plain text for a reader.
+#include "ripstop/core/toml/write.h"
+
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "ripstop/core/toml/write.h"
 #include "toml_keys.h"
 
 namespace ripstop {
