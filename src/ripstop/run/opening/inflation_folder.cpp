@@ -67,7 +67,7 @@ void InflationFolder::begin(const Opening& solver, InflationState& state, Inflat
     InflationState earlier = inflation_state_from_bytes(*saved);
     if (earlier.cloth.x.size() != state.cloth.x.size()) {
       throw Error(ExitCode::bad_data,
-                  fmt::format("{}: its checkpoint belongs to a different mesh; start again with --fresh",
+                  fmt::format("{}/checkpoint: belongs to a different mesh; start again with --fresh",
                               folder_.path().string()));
     }
     state = std::move(earlier);
