@@ -36,7 +36,7 @@ class Flight:
 
 
 FAMILIES = {"flat-circular": 15, "conical": 12, "elliptical": 6, "extended-skirt": 6, "hemispherical": 12,
-            "quarter-spherical": 6, "cross": 6, "ringslot": 5, "ringsail": 5, "disk-gap-band": 7}  # duration [s]
+            "quarter-spherical": 6, "cross": 6, "ringslot": 5, "ringsail": 5, "disk-gap-band": 6}  # duration [s]
 F_111 = "parachute.canopy_material=f-111-physical"  # 3 CFM; the cases have MIL-C-7020 type I of 100 CFM
 CLOTHS = {"flat-circular, 3 CFM (F-111)": "flat-circular-f-111", "flat-circular, 30 CFM": "flat-circular-30-cfm",
           "flat-circular, 100 CFM": "flat-circular", "extended-skirt, 3 CFM (F-111)": "extended-skirt-f-111",

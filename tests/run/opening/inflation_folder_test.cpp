@@ -321,7 +321,7 @@ TEST_F(InflationFolderTest, TheCheckpointOfAnotherMeshIsRefused) {
   write_file(root / "run" / "checkpoint", other.checkpoint);
   InflationObserver quiet;
   const std::string message = refusal_of([&] { open("run", quiet); }, ExitCode::bad_data);
-  EXPECT_NE(message.find("checkpoint belongs to a different mesh; start again with --fresh"),
+  EXPECT_NE(message.find("checkpoint: belongs to a different mesh; start again with --fresh"),
             std::string::npos)
       << message;
 }
