@@ -11,6 +11,7 @@
 #include "ripstop/case/openrocket_text.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/quantity.h"
+#include "ripstop/core/table/text.h"
 #include "ripstop/core/visible.h"
 
 namespace ripstop {
@@ -18,11 +19,7 @@ namespace {
 
 constexpr int deepest_component = 200;  // components inside components
 
-std::string trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r\n");
-  if (first == std::string_view::npos) return "";
-  return std::string(text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1));
-}
+using table::trimmed;
 
 class OpenRocketReader {
  public:

@@ -191,8 +191,8 @@ FreeFlightState FreeFlight::start() {
   state.elastic_at_start = elastic_energy(*cloth_, cloth);
   state.momentum_at_start = momentum(*cloth_, cloth) + mass_ * state.box_velocity;
   state.mouth_at_start = mouth_area(air_->cells(), positions(cloth, *cloth_));
-  if (problem_
-          .from) {  // the predictor of the first step has the inertia of this box, not that of the opening's
+  // The predictor of the first step has the inertia of this box, not that of the opening's.
+  if (problem_.from) {
     const Vec3 on_mass = gravity_ - box_acceleration(state);
     for (const double m : mesh_.mass) state.coupled.air.other.push_back(m * on_mass);
   }

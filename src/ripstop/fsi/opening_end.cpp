@@ -7,6 +7,16 @@
 
 namespace ripstop {
 
+std::vector<double> distances_over_ground(const std::vector<AirRow>& air) {
+  std::vector<double> distances;
+  double distance = 0, path = 0;
+  for (const AirRow& row : air) {
+    distance += (row.path - path) * std::cos(row.angle * std::numbers::pi / 180), path = row.path;
+    distances.push_back(distance);
+  }
+  return distances;
+}
+
 OpeningEnd end_of_opening(const Opening& opening, const InflationState& state, double load,
                           const std::vector<AirRow>& air) {
   if (!opening.air() || !opening.problem().air->payload)
@@ -22,11 +32,7 @@ OpeningEnd end_of_opening(const Opening& opening, const InflationState& state, d
   end.time = state.cloth.time;
   end.air_speed = opening.problem().air->flow.air.velocity.z;
   end.speed = flight.speed, end.angle = flight.angle, end.fallen = flight.fallen;
-  double path = 0;
-  for (const AirRow& row : air) {
-    end.distance += (row.path - path) * std::cos(row.angle * std::numbers::pi / 180);
-    path = row.path;
-  }
+  if (!air.empty()) end.distance = distances_over_ground(air).back();
   end.shape = positions(state.cloth, cloth), end.velocity = velocities(state.cloth, cloth);
   end.pressure = state.air.pressure, end.force = state.air.force;
   end.peak_tension = state.record.peak_tension;

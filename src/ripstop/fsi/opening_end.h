@@ -52,6 +52,9 @@ void each_member(T& end, Visit&& visit) {
   sewing_members(end.highest_stress, visit);
 }
 
+/// Of the payload since deployment, for each row of the air [m].
+std::vector<double> distances_over_ground(const std::vector<AirRow>& air);
+
 /// Of an opening with a payload and no reefing line left, after its last block. `load`: mean of the last row [N].
 /// `air` has all steps of the flow. Throws Error(usage) for another one.
 OpeningEnd end_of_opening(const Opening& opening, const InflationState& state, double load,

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "ripstop/core/members.h"
+
 namespace ripstop {
 
 struct CsvTable {
@@ -23,6 +25,14 @@ void write_csv(const std::filesystem::path& path, const CsvTable& table);
 /// Every double comes back bit for bit (but for the payload of a NaN). Empty lines and lines that start with
 /// '#' are skipped, blanks around fields dropped. Throws Error(bad_data) with file and line, Error(io).
 CsvTable read_csv(const std::filesystem::path& path);
+
+/// The rows of a table of listed structs, which has all of their columns.
+template <class Row>
+std::vector<Row> read_rows(const std::filesystem::path& path) {
+  std::vector<Row> rows;
+  for (const std::vector<double>& row : read_csv(path).rows) rows.push_back(from_row<Row>(row));
+  return rows;
+}
 
 /// A table with words in it, such as the keys of a sweep.
 struct TextTable {

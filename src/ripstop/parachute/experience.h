@@ -1,10 +1,17 @@
 // Known data of a canopy type, for comparison with computed values.
 #pragma once
 
+#include <array>
+#include <optional>
+
 namespace ripstop {
 
 struct KnownRange {
   double low = 0, high = 0;  // 0: not known
+
+  std::optional<std::array<double, 2>> if_known() const {
+    return high > 0 ? std::optional(std::array{low, high}) : std::nullopt;
+  }
 };
 
 /// Ranges and C_x from T. W. Knacke, Parachute Recovery Systems Design Manual, NWC TP 6575 (1991), Tables 5-1

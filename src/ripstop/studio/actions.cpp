@@ -248,15 +248,14 @@ std::string Actions::size(const std::string& file, const std::string& family, do
   return read(file);
 }
 
-std::string Actions::shape(const std::string& file, std::optional<double> pressure, int nodes) {
+std::string Actions::shape(const std::string& file, const std::string& pressure, const std::string& nodes) {
   case_path(file);
   const unsigned own = ++newest_shape_;
   const TemporaryFolder out("ripstop-studio");
   const fs::path folder = out.path / "shape";
-  std::vector<std::string> arguments = {"fabric", file, "--set",
-                                        fmt::format("parachute.mesh.cloth_nodes={}", nodes),
+  std::vector<std::string> arguments = {"fabric", file, "--set", "parachute.mesh.cloth_nodes=" + nodes,
                                         "--out=" + folder.string()};
-  if (pressure) arguments.push_back(fmt::format("--pressure={}", *pressure));
+  if (!pressure.empty()) arguments.push_back("--pressure=" + pressure);
   const Call done = call(arguments, [&] { return newest_shape_ == own; });
   if (newest_shape_ != own) return "";
   if (done.code != 0 && done.code != static_cast<int>(ExitCode::not_converged)) {
@@ -268,11 +267,10 @@ std::string Actions::shape(const std::string& file, std::optional<double> pressu
                      shape_json(view));
 }
 
-std::string Actions::load(const std::string& file, double mass, double speed) {
+std::string Actions::load(const std::string& file, const std::string& mass, const std::string& speed) {
   case_path(file);
   const TemporaryFolder out("ripstop-studio");
-  must({"load", file, fmt::format("--mass={}", mass), fmt::format("--speed={}", speed),
-        "--out=" + (out.path / "load").string()});
+  must({"load", file, "--mass=" + mass, "--speed=" + speed, "--out=" + (out.path / "load").string()});
   return read_file(out.path / "load" / "result.json");
 }
 

@@ -14,9 +14,6 @@
 
 namespace ripstop {
 
-/// Nodes of the cloth of a live shape: it is there within a second.
-inline constexpr int live_nodes = 3000;
-
 class Actions {
  public:
   /// Throws Error(usage) if `folder` is none, or another server uses it.
@@ -37,10 +34,10 @@ class Actions {
   std::string size(const std::string& file, const std::string& family, double mass, double rate,
                    double height);
 
-  /// Shape under a pressure [Pa], absent: the dynamic pressure of the case. Ends an earlier call, whose answer is
+  /// Shape under a pressure [Pa], empty: the dynamic pressure of the case. Ends an earlier call, whose answer is
   /// empty.
-  std::string shape(const std::string& file, std::optional<double> pressure, int nodes);
-  std::string load(const std::string& file, double mass, double speed);
+  std::string shape(const std::string& file, const std::string& pressure, const std::string& nodes);
+  std::string load(const std::string& file, const std::string& mass, const std::string& speed);
   /// Bill of materials and the pieces as SVG.
   std::string pattern(const std::string& file);
 

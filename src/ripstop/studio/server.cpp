@@ -15,7 +15,6 @@
 #include "ripstop/case/case.h"
 #include "ripstop/case/quantity_keys.h"
 #include "ripstop/core/error.h"
-#include "ripstop/core/positive.h"
 #include "ripstop/studio/actions.h"
 
 namespace ripstop {
@@ -54,18 +53,6 @@ void refuse(Response& response, int status, const std::string& message) {
 std::string parameter(const Request& request, const char* name) {
   if (!request.has_param(name)) throw Error(ExitCode::usage, fmt::format("the request has no {}", name));
   return request.get_param_value(name);
-}
-
-double number(const std::string& text, const char* name) {
-  std::size_t used = 0;
-  double value = 0;
-  try {
-    value = std::stod(text, &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
-  if (used == 0 || used != text.size()) throw Error(ExitCode::usage, fmt::format("{} is not a number", name));
-  return value;
 }
 
 struct Body {
@@ -196,16 +183,11 @@ void StudioServer::Parts::add_reading() {
   get("/api/case", [this](const Request& r) { return actions.read(parameter(r, "file")); });
   get("/api/pattern", [this](const Request& r) { return actions.pattern(parameter(r, "file")); });
   get("/api/load", [this](const Request& r) {
-    return actions.load(parameter(r, "file"), number(parameter(r, "mass"), "the mass"),
-                        number(parameter(r, "speed"), "the speed"));
+    return actions.load(parameter(r, "file"), parameter(r, "mass"), parameter(r, "speed"));
   });
   get("/api/shape", [this](const Request& r) {
-    std::optional<double> pressure;
-    if (r.has_param("pressure")) pressure = number(parameter(r, "pressure"), "the pressure");
-    const double nodes =
-        r.has_param("nodes") ? number(parameter(r, "nodes"), "the number of nodes") : live_nodes;
-    require_within("number of nodes", nodes, 500, 50000);
-    const std::string shape = actions.shape(parameter(r, "file"), pressure, static_cast<int>(nodes));
+    const std::string shape =
+        actions.shape(parameter(r, "file"), r.get_param_value("pressure"), parameter(r, "nodes"));
     return shape.empty() ? std::string("{\"superseded\": true}") : shape;
   });
 }

@@ -53,8 +53,7 @@ Descent run_descent(const CarryingRun& run, double payload_mass, const std::vect
   result.title = run.title;
   result.run = run.folder.string();
   result.basis = run.basis, result.drag_coefficient = run.drag_area / nominal_area(run.resolved.parachute());
-  const KnownRange known = experience(run.resolved.parachute()).drag_coefficient;
-  if (known.high > 0) result.known_coefficient = {known.low, known.high};
+  result.known_coefficient = experience(run.resolved.parachute()).drag_coefficient.if_known();
   result.payload_mass = payload_mass;
   result.parachute_mass = run.parachute_mass;
   result.drag_area = run.drag_area;

@@ -1,6 +1,7 @@
 // How a payload descends under the parachute of a steady run or of a flight: `ripstop descent`.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -44,13 +45,13 @@ CarryingRun carrying_run(const std::filesystem::path& folder);
 
 struct Descent {
   std::string title, run;
-  std::string basis;                                     // of the drag coefficient: "axial" or "descent"
-  double drag_coefficient = 0;                           // on S0
-  std::optional<std::vector<double>> known_coefficient;  // the handbook's, in descent
-  double payload_mass = 0, parachute_mass = 0;           // [kg]
-  double drag_area = 0, drag_area_uncertainty = 0;       // [m2]
-  double run_speed = 0;                                  // at which the drag area was computed [m/s]
-  double ground = 0;                                     // [m]
+  std::string basis;                                       // of the drag coefficient: "axial" or "descent"
+  double drag_coefficient = 0;                             // on S0
+  std::optional<std::array<double, 2>> known_coefficient;  // the handbook's, in descent
+  double payload_mass = 0, parachute_mass = 0;             // [kg]
+  double drag_area = 0, drag_area_uncertainty = 0;         // [m2]
+  double run_speed = 0;                                    // at which the drag area was computed [m/s]
+  double ground = 0;                                       // [m]
   std::vector<DescentRow> rows;
   std::vector<std::string> warnings;
 };

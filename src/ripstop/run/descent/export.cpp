@@ -61,8 +61,7 @@ ExportedParachute exported(const FinishedSteady& run, std::optional<double> depl
   const CarryingRun carries = flight ? carrying_run(*flight) : carrying_run(run);
   p.basis = carries.basis;
   p.drag_area = carries.drag_area, p.drag_area_uncertainty = carries.uncertainty * p.drag_area;
-  const KnownRange known = experience(design).drag_coefficient;
-  if (known.high > 0) p.known_coefficient = {known.low, known.high};
+  p.known_coefficient = experience(design).drag_coefficient.if_known();
   p.nominal_area = run.result.reference_area;
   p.nominal_diameter = nominal_diameter(design);
   p.drag_coefficient = flight ? *flight->result.coefficient : run.result.drag_coefficient;

@@ -1,6 +1,7 @@
 // A steady run in the formats of flight simulators: `ripstop export`.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,7 +19,7 @@ struct ExportedParachute {
   double nominal_diameter = 0, nominal_area = 0, drag_coefficient = 0;
   std::string drag_coefficient_on;  // the member that is its reference area
   std::string basis;                // "axial": of the steady run; "descent": of the flight
-  std::optional<std::vector<double>> known_coefficient;  // the handbook's range, in descent
+  std::optional<std::array<double, 2>> known_coefficient;  // the handbook's range, in descent
   double radius = 0, height = 0;  // of the open canopy, half the projected diameter and skirt to crown [m]
   double porosity = 0;            // open share of the surface as constructed
   double lag = 0;                 // from the trigger to the full drag area [s]

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <utility>
 
 #include "ripstop/case/assemble.h"
@@ -170,7 +171,7 @@ std::optional<Handover> handover_of(const FreeFlight& flight, const FlightStart&
   Handover h;
   h.time = flight.began(), h.same_flow = start.same_flow;
   h.height_lost = end.fallen, h.opening_speed = end.speed, h.opening_peak = end.peak_load;
-  h.path_angle = end.angle;
+  h.path_angle = end.angle * 180 / std::numbers::pi;
   h.load_before = end.load, h.load_after = norm(first.line_force);
   h.drag_before = end.drag, h.drag_after = norm(first.air_force);
   h.elastic_before = end.elastic, h.elastic_after = state.elastic_at_start;
@@ -186,8 +187,7 @@ FlightResult result_of(const Settings& resolved, const FreeFlight& flight, const
   r.payload_mass = *resolved.payload().mass_kg, r.parachute_mass = flight.mass() - r.payload_mass;
   r.density = resolved.flow().density_kg_m3, r.reference_area = nominal_area(resolved.parachute());
   if (!start.opening) r.axial_speed = start.speed, r.axial_coefficient = start.coefficient;
-  const KnownRange known = experience(resolved.parachute()).drag_coefficient;
-  if (known.high > 0) r.known_coefficient = {known.low, known.high};
+  r.known_coefficient = experience(resolved.parachute()).drag_coefficient.if_known();
   const FlightSummary summary = summarise_flight(history.rows);
   if (!failed(ended_by)) take_means(r, summary);
   r.handover = handover_of(flight, start, state, history);

@@ -1,6 +1,7 @@
 // One free flight in memory: the computation of `ripstop fly` without folder and terminal.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -21,7 +22,7 @@ struct Handover {
   double time = 0;         // since deployment [s]
   bool same_flow = false;  // cells and boundaries are those of the inflation; else interpolated
   double height_lost = 0, opening_speed = 0;     // by the payload until then [m], its speed then [m/s]
-  double path_angle = 0;                         // of its path below the horizon then [rad]
+  double path_angle = 0;                         // of its path below the horizon then [deg]
   double opening_peak = 0;                       // peak load of the inflation [N]
   double load_before = 0, load_after = 0;        // on the riser [N]
   double drag_before = 0, drag_after = 0;        // of the air on the canopy [N]
@@ -33,7 +34,7 @@ void each_member(T& h, Visit&& visit) {
   visit("same_flow", h.same_flow);
   visit("height_lost_m", h.height_lost);
   visit("speed_m_s", h.opening_speed);
-  visit("path_angle_rad", h.path_angle);
+  visit("path_angle_deg", h.path_angle);
   visit("opening_peak_load_n", h.opening_peak);
   visit("load_before_n", h.load_before);
   visit("load_after_n", h.load_after);
@@ -51,9 +52,9 @@ struct FlightResult {
   double duration = 0;   // [s]
   double payload_mass = 0, parachute_mass = 0;  // [kg]
   /// Absent for a flight that failed or is too short for a mean.
-  std::optional<double> descent, descent_error;          // [m/s]
-  std::optional<double> coefficient, coefficient_error;  // C_D0 in descent: 2 M g / (rho V_v^2 S0)
-  std::optional<std::vector<double>> known_coefficient;  // the handbook's range of the family, low and high
+  std::optional<double> descent, descent_error;            // [m/s]
+  std::optional<double> coefficient, coefficient_error;    // C_D0 in descent: 2 M g / (rho V_v^2 S0)
+  std::optional<std::array<double, 2>> known_coefficient;  // the handbook's range of the family, low and high
   std::optional<double> glide, glide_error;
   std::optional<double> oscillation, oscillation_error, largest, largest_error;  // [deg]
   std::optional<double> period, period_error;                                    // [s]

@@ -48,9 +48,7 @@ FinishedOpening finished_opening(const fs::path& folder) {
   const Settings resolved = settings_of_run(folder);
   const std::unique_ptr<Opening> opening =
       make_opening(with_engine(resolved, opening_problem(resolved, load_source(resolved), 1)));
-  std::vector<AirRow> air;
-  for (const std::vector<double>& row : read_csv(folder / "air.csv").rows)
-    air.push_back(from_row<AirRow>(row));
+  const auto air = read_rows<AirRow>(folder / "air.csv");
   const std::vector<double> load = read_csv(folder / "history.csv").column("load_mean_n");
   if (load.empty() || air.empty())
     throw Error(ExitCode::bad_data, fmt::format("{}: history.csv or air.csv has no rows", folder.string()));

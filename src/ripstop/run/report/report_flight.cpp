@@ -9,6 +9,7 @@
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/file.h"
 #include "ripstop/fsi/flight_record.h"
+#include "ripstop/fsi/opening_end.h"
 #include "ripstop/fsi/opening_record.h"
 #include "ripstop/output/csv.h"
 #include "ripstop/run/flight/flight_folder.h"
@@ -22,14 +23,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t path_points = 2000;  // in the page
 
-template <class Row>
-std::vector<Row> rows_of(const fs::path& file) {
-  std::vector<Row> rows;
-  if (!fs::exists(file)) return rows;
-  for (const std::vector<double>& row : read_csv(file).rows) rows.push_back(from_row<Row>(row));
-  return rows;
-}
-
 /// The inflation that was computed first, as far as the folder has one.
 struct Before {
   std::vector<AirRow> air;
@@ -41,7 +34,7 @@ Before inflation_in(const fs::path& folder) {
   Before before;
   const fs::path opening = folder / opening_name;
   if (!fs::exists(opening / "air.csv")) return before;
-  before.air = rows_of<AirRow>(opening / "air.csv");
+  before.air = read_rows<AirRow>(opening / "air.csv");
   const CsvTable history = read_csv(opening / "history.csv");
   before.load_time = history.column("time_s"), before.load = history.column("load_mean_n");
   before.shapes = opening_shapes(opening);
@@ -76,10 +69,10 @@ std::vector<ShapeFiles> flight_shapes(const fs::path& folder, double began, doub
 void add_path(ShapeView& shape, const Before& before, const std::vector<FreeFlightRow>& rows, double height) {
   std::vector<double> times;
   std::vector<Vec3> places;
-  double x = 0, path = 0;
-  for (const AirRow& row : before.air) {
-    x += (row.path - path) * std::cos(row.angle * std::numbers::pi / 180), path = row.path;
-    times.push_back(row.time), places.push_back({x, 0, height - row.fallen});
+  const std::vector<double> distances = distances_over_ground(before.air);
+  for (std::size_t i = 0; i < before.air.size(); ++i) {
+    const AirRow& row = before.air[i];
+    times.push_back(row.time), places.push_back({distances[i], 0, height - row.fallen});
   }
   for (const FreeFlightRow& row : rows) times.push_back(row.time), places.push_back(row.payload);
   const std::size_t every = times.size() / path_points + 1;
@@ -147,11 +140,11 @@ void add_flight(ReportRun& run, const Settings& resolved, const fs::path& folder
                   "glide_ratio",          "mean_oscillation_deg",     "largest_oscillation_deg",
                   "oscillation_period_s", "largest_line_force_n",     "load_factor",
                   "weakest_member",       "margin_of_safety",         "ended_by"};
-  const auto rows = rows_of<FreeFlightRow>(folder / "path.csv");
+  const auto rows = read_rows<FreeFlightRow>(folder / "path.csv");
   const Before before = inflation_in(folder);
   add_plots(run, before, rows);
   const double began = handover(folder, "time_s").value_or(0),
-               below = handover(folder, "path_angle_rad").value_or(0.5 * std::numbers::pi);
+               below = handover(folder, "path_angle_deg").value_or(90) * std::numbers::pi / 180;
   std::vector<ShapeFiles> files = before.shapes;
   const std::vector<ShapeFiles> own = flight_shapes(folder, began, resolved.flight().shapes_per_s);
   // The flight's first shape is the last one of the inflation.

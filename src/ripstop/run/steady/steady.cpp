@@ -61,8 +61,7 @@ SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state,
   r.drag_area = r.drag / dynamic_pressure(resolved);
   r.reference_area = nominal_area(resolved.parachute());
   r.drag_coefficient = r.drag_area / r.reference_area;
-  const KnownRange known = experience(resolved.parachute()).drag_coefficient;
-  if (known.high > 0) r.known_drag_coefficient = {known.low, known.high};
+  r.known_drag_coefficient = experience(resolved.parachute()).drag_coefficient.if_known();
   r.size = canopy_size(solver.mesh(), state.shape);
   const ClothState cloth = solver.cloth_state(state);
   const std::vector<double> tensions = spring_tensions(solver.cloth(), cloth);
