@@ -17,6 +17,7 @@
 
 #include "ripstop/flow/bodies.h"
 #include "ripstop/flow/cartesian/cartesian.h"
+#include "ripstop/flow/extent.h"
 #include "ripstop/flow/projections.h"
 #include "ripstop/flow/steady.h"
 #include "ripstop/flow/stl.h"
@@ -43,13 +44,8 @@ Body cup() {
 
 Body body_from(const std::string& file, double a, double b) {
   std::vector<Triangle> surface = read_stl(file);
-  Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
-  for (const Triangle& t : surface) {
-    for (const Vec3& p : {t.a, t.b, t.c}) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-  }
+  const Extent extent = extent_of(surface);
+  const Vec3 low = extent.lower(), high = extent.upper();
   const Vec3 middle = 0.5 * (low + high);
   const double scale = 1 / (high.x - low.x);
   for (Triangle& t : surface)

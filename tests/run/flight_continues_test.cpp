@@ -98,6 +98,9 @@ TEST_F(ContinuedFlight, HandsOverVelocityLoadAndEnergy) {
   EXPECT_NEAR(h.path_angle, 30, 2);
   const double gained = row.step * (9.81 + h.load_before / 0.8);  // at most, in the first step
   EXPECT_LT(norm(row.velocity - before), 1.2 * gained);
+  const double way =
+      h.height_lost / std::tan(below) + row.step * before.x;  // over the ground, on a straight path
+  EXPECT_NEAR(row.payload.x, way, 0.05 * way);
   EXPECT_NEAR(row.angle, 60, 3) << "the canopy trails behind the payload";
   EXPECT_LT(flight.result.momentum_residual, 0.01);
 }

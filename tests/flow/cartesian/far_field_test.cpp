@@ -124,6 +124,16 @@ TEST(FarField, TheForceOnADiskIsTheMomentumThatTheAirLoses) {
   }
 }
 
+// Full steps of the march oscillate at 45 degrees; the smaller ones of an oblique stream settle.
+TEST(FarField, AStreamAt45DegreesSettlesInAWideBox) {
+  FlowProblem problem = empty_box({14.142, 0, 14.142});
+  problem.grid = graded({{-5, -5, -5}, {10, 10, 10}, 41, 41, 41}, {-0.8, -0.8, -0.8}, {0.8, 0.8, 0.8}, 1.2);
+  problem.bodies = {sheet_body(turned(disk(1, {}), problem.air.direction()), {0, 1.2})};
+  problem.stopping = {.residual = 1e-4, .max_iterations = 400};
+  const FlowField field = solve(*make_cartesian(one_thread()), problem);
+  EXPECT_TRUE(field.converged) << largest_residual(field.last);
+}
+
 TEST(FarField, AWindThatIsNotAlongZNeedsTheFarField) {
   FlowProblem problem = empty_box({0, 0, 20});
   problem.sides = Sides::slip;
