@@ -238,6 +238,7 @@ class Report(unittest.TestCase):
     def test_on_a_phone_nothing_is_wider_than_the_page_and_no_word_is_broken(self):
         self.open(self.steady / "report.html")
         self.browser.width(390)
+        self.js("new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn)))")  # plots follow the width in a frame
         self.assertLessEqual(self.js("document.documentElement.scrollWidth"), 390)
         # A word is broken where a range over it has more than one line.
         broken = """[...document.querySelectorAll('.card dt, .table td:first-child')].flatMap((cell) => {

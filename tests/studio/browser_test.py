@@ -108,9 +108,10 @@ class StudioPage(unittest.TestCase):
 
         # A change by another program is noticed.
         coarse = file.read_text().replace("cloth_nodes = 1000", "cloth_nodes = 1000\nline_segment_m = 0.3")
-        file.write_text("# by hand\n" + coarse + "\n[coupling]\nthreads = 1\nshape_tolerance_m = 1e-2\ndrag_tolerance = 0.05\n")
+        file.write_text("# by hand\n" + coarse + "\n[coupling]\nthreads = 1\nload = \"uniform\"\n")
         self.until("!document.getElementById('notice').hidden && document.getElementById('notice').textContent.includes('changed outside')")
         self.assertTrue(self.browser.evaluate("Studio.design().text.value.startsWith('# by hand')"))
+        self.click("#notice button")
 
         self.click("[data-view=pattern]")
         self.until("document.querySelector('[data-piece] img').naturalWidth > 0")
@@ -120,13 +121,16 @@ class StudioPage(unittest.TestCase):
 
         # A run, a reload in it, and its report.
         self.click("[data-view=runs]")
-        self.type_into("[data-option=\"--grid\"]", "16,16,24")
-        self.picture("runs")
+        self.type_into("[data-option=\"--grid\"]", "48,48,64")
         self.click("[data-control=start]")
         self.until("document.querySelector('[data-job]')?.dataset.state === 'running'")
+        self.until("/^ +[0-9]/m.test(document.querySelector('.log')?.textContent ?? '')")
+        self.picture("runs")
         self.open()
         self.assertEqual(self.browser.evaluate("document.querySelectorAll('[data-job]').length"), 1)
-        self.until("['finished', 'not converged'].includes(document.querySelector('[data-job]')?.dataset.state)", 240)
+        self.until("!['queued', 'running'].includes(document.querySelector('[data-job]')?.dataset.state ?? 'queued')", 200)
+        self.assertEqual(self.browser.evaluate("document.querySelector('[data-job]').dataset.state"), "finished",
+                         self.browser.evaluate("document.querySelector('[data-job] .line').textContent"))
         self.picture("runs-done")
         self.browser.evaluate("[...document.querySelectorAll('[data-job] button')].find((one) => one.textContent === 'Report').click()")
         self.until("document.querySelector('iframe') !== null")
