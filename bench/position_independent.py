@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Which instructions of the kernels differ between two builds: docs/tables/position-independent.md.
+"""Compares the instructions of the kernels of two builds: docs/tables/position-independent.md.
 
     python3 bench/position_independent.py build-check build-fixed
 """
@@ -13,7 +13,7 @@ KERNELS = ("src/ripstop/cloth", "src/ripstop/flow/cartesian")
 
 
 def instructions(build, file):
-    """Their names in order, without operands: addresses and registers may differ."""
+    """The names of the instructions in order, without operands, because addresses and registers may differ."""
     objects = pathlib.Path(build, "CMakeFiles/ripstop.dir", file + ".o")
     text = subprocess.run(["objdump", "-d", "--no-show-raw-insn", objects], capture_output=True, text=True, check=True).stdout
     return [line.split("\t")[1].split()[0] for line in text.splitlines() if "\t" in line and line.split("\t")[1].strip()]

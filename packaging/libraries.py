@@ -1,5 +1,5 @@
-"""Shared libraries beyond libc for files that leave this machine: which are needed, copied next to a program with $ORIGIN run paths, and
-the oldest glibc that starts them."""
+"""Shared libraries of programs for other machines: finds the required ones except libc, copies them next to a program with $ORIGIN run
+paths, and finds the oldest sufficient glibc."""
 import hashlib
 import pathlib
 import re
@@ -8,7 +8,7 @@ import subprocess
 
 # Parts of glibc, which every system has in a version of its own.
 GLIBC = re.compile(r"^(ld-linux.*|linux-vdso|lib(c|m|pthread|dl|rt|util|resolv|nsl|anl|mvec))\.so")
-# What PEP 600 expects of a system with the glibc of the tag: one copy in a process, shared by all modules of Python.
+# PEP 600 expects these of a system with the glibc of the tag. All modules of Python in a process share one copy.
 SYSTEM_OF_WHEELS = re.compile(r"^lib(stdc\+\+|gcc_s)\.so")
 FONTS = pathlib.Path("/usr/share/fonts/truetype/dejavu")  # Debian's fonts-dejavu-core
 FONT_LIST = """<?xml version="1.0"?>
@@ -39,7 +39,7 @@ def patch(file, names, run_path):
 
 
 def bundle(files, folder, keep_out=None, rename=False):
-    """Copies the libraries that `files` need into `folder`; all find each other from where they are. With `rename`, a library of the same
+    """Copies the libraries that `files` need into `folder`, where they find each other. With `rename`, a library of the same
     name that the process has loaded before does not replace them. Returns their original paths."""
     libraries = {}
     for file in files:
@@ -67,7 +67,7 @@ def licences(libraries, folder):
     folder.mkdir(parents=True)
     for path in sorted({*libraries.values(), FONTS / "DejaVuSans.ttf"}):
         owner = subprocess.run(["dpkg", "-S", str(path)], capture_output=True, text=True)
-        if owner.returncode != 0:  # where /lib is a link to /usr/lib, dpkg may know the other name
+        if owner.returncode != 0:  # where /lib is a link to /usr/lib, dpkg may list the other name
             owner = subprocess.run(["dpkg", "-S", str(path).removeprefix("/usr")], capture_output=True, text=True, check=True)
         package = owner.stdout.split(":")[0]
         shutil.copy(f"/usr/share/doc/{package}/copyright", folder / package)
@@ -82,5 +82,5 @@ def fonts(folder):
 
 
 def glibc_of(files):
-    """The newest version of glibc that one of the files asks for, as (major, minor)."""
+    """The newest version of glibc that one of the files requires, as (major, minor)."""
     return max(tuple(map(int, version)) for file in files for version in re.findall(r"GLIBC_(\d+)\.(\d+)", run("readelf", "-V", file)))

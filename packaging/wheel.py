@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The Python package as a wheel that needs nothing but Python, NumPy and the system's C and C++ library: the module, the program, their
-libraries under names of their own, materials, examples and fonts. Its tag names the oldest glibc that can load it. No network is used."""
+"""The Python package as a wheel that needs only Python, NumPy and the system's C and C++ library. It contains the module, the program,
+their renamed libraries, materials, examples and fonts. Its tag names the oldest glibc that can load it. No network is used."""
 import argparse
 import os
 import pathlib

@@ -1,4 +1,4 @@
-"""The wheel holds a module that CMake has built (the target `wheel`); packaging/wheel.py computes the tag of its platform."""
+"""The wheel contains a module that CMake has built (the target `wheel`); packaging/wheel.py computes the tag of its platform."""
 import os
 
 from setuptools import Distribution, setup

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Writes _ripstop.pyi beside a built module: every public name with its signature as pybind11 tells it, its docstring, and
-the members that a class has by its list (__annotations__)."""
+"""Writes _ripstop.pyi next to a built module. It has every public name with the signature of pybind11, its docstring, and
+the members of each class (__annotations__)."""
 import inspect
 import pathlib
 import re

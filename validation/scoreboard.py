@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """One table of all comparisons with measurements, handbooks, other codes and published computations: docs/validation/scoreboard.md.
-The numbers are read from the tables of docs/tables, which their own commands make. Nothing is computed but errors and means."""
+The numbers are read from the tables of docs/tables, which their own commands make. Only errors and means are computed here."""
 import pathlib
 import re
 import statistics

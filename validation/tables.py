@@ -1,4 +1,4 @@
-"""Writes a table of docs/tables: the table, the command that makes it, on what machine and when."""
+"""Writes a page of docs/tables: the table, its command, and the machine and day."""
 import datetime
 import json
 import pathlib
@@ -12,7 +12,7 @@ def table(head, rows):
 
 
 def made_by(runs):
-    """Processors and first and last day of runs, from what their run.json say."""
+    """Processors, first and last day of runs, from their run.json."""
     days = sorted({run["started"][:10] for run in runs})
     named = [f"{day.day} {day:%B %Y}" for day in map(datetime.date.fromisoformat, days)]
     return "; ".join(sorted({run["processor"] for run in runs})) + ", " + " to ".join(dict.fromkeys([named[0], named[-1]]))

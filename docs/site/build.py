@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Builds the site of the documentation into build-docs/site: the pages of the repository, KaTeX, and the C++ interface by Doxygen.
-The packages mkdocs-material, libjs-katex and doxygen of Debian are needed, and no network. Broken links end it with an error."""
+It needs Debian's packages mkdocs-material, libjs-katex and doxygen, and no network. A broken link is an error."""
 import json
 import os
 import pathlib

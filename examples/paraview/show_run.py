@@ -2,7 +2,7 @@
 """Shows a run folder of Ripstop in ParaView: canopy by stress, lines by tension, a slice and streamlines of the flow.
 
     pvpython examples/paraview/show_run.py RUN [--picture FILE.png]
-    python3 examples/paraview/show_run.py --check RUN        (VTK only: is all there that would be shown?)
+    python3 examples/paraview/show_run.py --check RUN        (VTK only: checks that all files are complete)
 
 Inside ParaView (paraview --script=...) the folder is taken from the environment variable RIPSTOP_RUN.
 """
@@ -88,7 +88,7 @@ def show(run, picture=None):
         show_flow(simple, files["flow"], view)
     simple.GetAnimationScene().UpdateAnimationUsingDataTimeSteps()
     simple.GetAnimationScene().GoToLast()
-    # The stream comes from the left, the mouth of the canopy looks into it.
+    # The stream comes from the left and enters the mouth of the canopy.
     view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [-4, 2, 0], [0, 0, 0], [0, 1, 0]
     simple.ResetCamera(view)
     simple.Render(view)

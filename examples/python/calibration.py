@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""A calibration: the damping C_a with which an opening has the peak load that was measured.
+"""Calibrates the damping C_a of an opening on a measured peak load.
 
     python3 examples/python/calibration.py --cloth-nodes 3000
 
-Stratos IV at 30 m/s is the reference (examples/stratos-iv). After the search, the opening is computed once more with the C_a
-that was found, and its peak stands beside the measured one.
+Stratos IV at 30 m/s is the reference (examples/stratos-iv). After the search, the script computes the opening again with the
+calibrated C_a and prints its peak next to the measured one.
 """
 import argparse
 import pathlib

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""A flight whose parachute comes from Ripstop: a coupled run gives its drag area, the way down follows from that.
+"""Computes the drag area of a parachute by a coupled run, and with it the descent of a payload.
 
     python3 examples/python/flight.py examples/flat-circular/case.toml --mass 0.5 --apogee 800 --out flight.csv
 
-The flight here is Ripstop's own: line stretch, filling and descent of a mass point in the standard atmosphere. For a whole
-rocket, the same parachute is written as the arguments of RocketPy's Rocket.add_parachute (--rocketpy FILE).
+The flight has line stretch, filling and descent of a point mass in the standard atmosphere. For a complete rocket, `--rocketpy FILE`
+writes the same parachute as the arguments of RocketPy's Rocket.add_parachute.
 """
 import argparse
 import pathlib

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""An opening: load over time as NumPy columns, with its energy balance and what every line carried.
+"""Computes an opening: load over time as NumPy columns, energy balance, and peak tension of every line.
 
     python3 examples/python/opening.py examples/stratos-iv/case.toml --pressure 300 --out opening.csv
 """

@@ -3,9 +3,9 @@
 
     python3 examples/python/trade_study.py --mass 2.4 --diameters 1.2 1.5 1.8 --out trade.csv
 
-Mass and packed volume are of the parachute as cut. The drag coefficient is the one that Ripstop has computed of the family
-(examples/families.json), or with --fly a coupled run of the very parachute, which takes its minutes. The opening load is the
-highest of the methods that apply. Tape is the example's in every size: --set 'parachute.tape.material="none"' for small ones.
+Mass and packed volume are those of the parachute as cut. The drag coefficient is that of the family (examples/families.json).
+With --fly it is that of a coupled run of each parachute, which takes minutes. The opening load is the highest of the applicable
+methods. Every size has the tape of the example; for small sizes use --set 'parachute.tape.material="none"'.
 """
 import argparse
 import csv

@@ -21,7 +21,7 @@ from ._ripstop import __version__
 
 __all__ = [name for name in dir(_ripstop) if not name.startswith("_")]
 
-# A wheel brings materials and examples along; what is installed or built has them where the library looks.
+# A wheel contains materials and examples; an installed or built library finds its own.
 _data = pathlib.Path(__file__).parent / "data"
 if _data.is_dir():
     os.environ.setdefault("RIPSTOP_DATA", str(_data))

@@ -1,4 +1,4 @@
-"""Says for every TOML file given after the schema whether it is valid: one line a file, "valid" or "invalid"."""
+"""Validates every TOML file that follows the schema in the arguments: one line a file, "valid" or "invalid"."""
 
 import json
 import sys

@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
-"""What holds of every page and source file: links lead somewhere, pages say what is and not what was, prose is wrapped alike, files
-stay short."""
+"""Checks every page and source file: links exist, pages describe the present state, prose has one line width, and files are short."""
 import collections
 import fnmatch
 import importlib.util
@@ -16,7 +15,7 @@ WIDEST = 120
 PAGES = sorted([ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "SECURITY.md", ROOT / "CODE_OF_CONDUCT.md",
                 ROOT / "CHANGELOG.md", ROOT / "src/README.md", ROOT / "materials/README.md",
                 *ROOT.glob("docs/**/*.md"), *ROOT.glob("examples/**/README.md"), *ROOT.glob("validation/*/README.md")])
-TABLES = ROOT / "docs/tables"  # made by commands; each says when
+TABLES = ROOT / "docs/tables"  # made by commands, with their day
 GENERATED = [ROOT / f"docs/reference/{page}.md" for page in ("case-keys", "commands", "python")]  # by make reference
 
 MONTHS = "January|February|March|April|May|June|July|August|September|October|November|December"
@@ -49,7 +48,7 @@ def at(page, number):
 
 
 def program_of(test):
-    """The part of test_<...> to which a test belongs (tests/CMakeLists.txt)."""
+    """The name of the test program test_<...> to which a test belongs (tests/CMakeLists.txt)."""
     parts = test.relative_to(ROOT / "tests").parts
     return "cartesian" if parts[:2] == ("flow", "cartesian") else parts[0]
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The reference pages are those that the program and the Python package give, and every command quoted in a page is one that the
-program takes. Nothing is computed. RIPSTOP_PROGRAM names the program; RIPSTOP_BUILD the build folder, if it has the Python package."""
+"""The reference pages equal the output of the program and the Python package, and the program accepts every command quoted in a
+page. No run is computed. RIPSTOP_PROGRAM names the program; RIPSTOP_BUILD the build folder, if it has the Python package."""
 import functools
 import importlib.util
 import json
@@ -23,7 +23,7 @@ spec.loader.exec_module(reference)
 
 PAGES = sorted([ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "src/README.md", *ROOT.glob("docs/**/*.md"), *ROOT.glob("materials/*.md"),
                 *ROOT.glob("examples/**/README.md"), *ROOT.glob("validation/*/README.md")])
-# A part of a path in capitals, or an ellipsis: the reader writes something there.
+# A part of a path in capitals, or an ellipsis: a placeholder.
 PLACEHOLDER = re.compile(r"(?:^|.*/)[A-Z][A-Z_]*\d?(?:/.*|$)|.*\.\.\..*")
 
 
@@ -49,7 +49,7 @@ def commands():
 
 def quoted(text):
     """Commands of Ripstop in the blocks of code and in the code spans of a page; True where the whole line is a command. The first
-    line of a sealed file is none."""
+    line of a sealed file is not a command."""
     text = re.sub(r"\\\n\s*", " ", text)
     program = r"(?:\$ )?(?:\S*/)?ripstop (?!sealed file )"
     lines = re.findall(rf"^(?: {{4,}}|)({program}.*)$", re.sub(r"^```.*$", "", text, flags=re.MULTILINE), re.MULTILINE)
@@ -71,7 +71,7 @@ def words_of(line):
 
 
 def fault(line, whole):
-    """What the program would refuse, or None. A code span may leave out required arguments."""
+    """Reason why the program would refuse the command, or None. A code span may leave out required arguments."""
     try:
         words = words_of(line)
     except ValueError as error:

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """The checks of the built site find broken links and resources of other hosts. Where the packages of `make docs` are installed, the
-site is built and looked at in a browser: no request leaves the folder, every equation is typeset, and the search finds a page."""
+site is built and opened in a browser: no request leaves the folder, every equation is typeset, and the search finds a page."""
 import os
 import pathlib
 import re

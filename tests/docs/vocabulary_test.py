@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
 """Language of the documentation and of the program: standard terms, sentence length, headings and typeset equations of every
-rewritten page; terms and sentence length of the generated reference (--help, keys, docstrings) and of all text in the sources; the code
-names of the glossary. Pages that are not yet rewritten are printed as open."""
+rewritten page; terms and sentence length of the generated reference (--help, keys, docstrings) and of all text in the sources; terms in
+comments and docstrings; the code names of the glossary. Pages that are not yet rewritten are printed as open."""
+import ast
+import io
 import pathlib
 import re
 import statistics
+import tokenize
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
@@ -133,6 +136,16 @@ def comments(source):
             yield number, match[1]
 
 
+def python_texts(source):
+    """The comments and docstrings of a Python source with their line numbers."""
+    for token in tokenize.generate_tokens(io.StringIO(source).readline):
+        if token.type == tokenize.COMMENT and not token.string.startswith(("#!", "# pylint:")):
+            yield token.start[0], token.string.lstrip("# ")
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef)) and ast.get_docstring(node):
+            yield node.body[0].lineno, ast.get_docstring(node)
+
+
 def test_names(source):
     """The names of the tests of a C++ source as sentences."""
     for suite, name in re.findall(r"^\s*TEST(?:_[FP])?\(\s*(\w+),\s*(\w+)\)", source, re.MULTILINE):
@@ -148,6 +161,12 @@ def faults_of_text(text):
     found = [f"'{match.group()}' ({term}): {text}" for pattern, term in WORDS for match in pattern.finditer(text)]
     parts = re.split(r"\n|\\n|(?<=[.!?:;])\s", text)
     return found + [f"{len(part.split())} words: {part}" for part in parts if len(part.split()) > LONGEST_SENTENCE]
+
+
+def faults_of_docstring(text):
+    """The same of a docstring, whose lines are wrapped; indented lines are commands or code."""
+    paragraphs = re.split(r"\n\s*\n", "\n".join(line for line in text.splitlines() if not line.startswith("    ")))
+    return [fault for paragraph in paragraphs for fault in faults_of_text(plain(paragraph.replace("\n", " ")))]
 
 
 def faults(text):
@@ -214,6 +233,13 @@ class Vocabulary(unittest.TestCase):
         self.assertGreater(len(names), 1000)
         self.assertEqual([f"{place}: {fault}" for place, text in lines + names for fault in figurative(text)], [])
 
+    def test_comments_and_docstrings_of_python_follow_the_rules(self):
+        folders = ("apps", "bench", "docs", "examples", "packaging", "python", "tests", "validation")
+        sources = [file for folder in folders for file in sorted((ROOT / folder).rglob("*.py"))]
+        texts = [(f"{file.relative_to(ROOT)}:{line}", text) for file in sources for line, text in python_texts(file.read_text())]
+        self.assertGreater(len(texts), 400)
+        self.assertEqual([f"{place}: {fault}" for place, text in texts for fault in faults_of_docstring(text)], [])
+
     def test_texts_in_the_old_language_are_refused(self):
         old = ('row("no {} that holds",\n    "the load goes on "\n    "as it was");  // says nothing', 'throw Error("what presses is the air");')
         for source in old:
@@ -221,6 +247,8 @@ class Vocabulary(unittest.TestCase):
                 self.assertNotEqual([fault for _, text in literals(source) for fault in faults_of_text(text)], [])
         self.assertEqual(list(comments('f("// none");  // what it tells\n/// Area [m2].')), [(1, "what it tells"), (2, "Area [m2].")])
         self.assertNotEqual([fault for _, text in test_names("TEST(Load, WhatCannotBeIsRefused)") for fault in figurative(text)], [])
+        self.assertEqual(list(python_texts('"""Area."""\nx = "none"  # [m2]\n')), [(2, "[m2]"), (1, "Area.")])
+        self.assertNotEqual(faults_of_docstring("What a run\nsays."), [])
         self.assertEqual(list(literals('f("one "\n  "text", "two");  // "none"')), [(1, "one text"), (2, "two")])
 
     def test_open_pages_are_listed(self):

@@ -1,4 +1,4 @@
-"""Reads one file with VTK itself and prints what VTK holds as JSON; values as the hexadecimal bytes in memory."""
+"""Reads one file with VTK and prints its data as JSON, with values as their hexadecimal bytes in memory."""
 import json
 import sys
 import xml.etree.ElementTree

@@ -1,4 +1,4 @@
-"""Manual pages and shell completion made from --help: every command has a page, and each shell that is here completes alike."""
+"""Manual pages and shell completion made from --help: every command has a page, and each installed shell completes in the same way."""
 import gzip
 import os
 import pathlib

@@ -67,7 +67,7 @@ class Examples(unittest.TestCase):
                 pass
         self.assertIn("converged", text)
         self.assertNotIn("NOT", text)
-        # From an apogee, the payload is on its terminal speed at the end: drag is weight.
+        # After a descent from apogee the payload has its terminal speed: drag equals weight.
         area = table["drag_area_m2"][-1]
         weight = 0.5 * table["density_kg_m3"][-1] * table["speed_m_s"][-1] ** 2 * area
         self.assertAlmostEqual(table["force_n"][-1] / weight, 1, delta=1e-3)

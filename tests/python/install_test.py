@@ -1,4 +1,4 @@
-"""The wheel installs into a fresh environment without a network, and what CMake installs is found where Debian's Python looks."""
+"""The wheel installs into a fresh environment without a network, and Debian's Python finds the module that CMake installs."""
 import os
 import pathlib
 import re
@@ -9,7 +9,7 @@ import unittest
 
 import small
 
-# Which module, which data, and that both work.
+# Paths of module and data, after a call that uses both.
 ASK = "import ripstop; print(ripstop.__file__, ripstop.data_directory()); print(ripstop.read_case({!r}).title)".format(str(small.STRATOS))
 
 

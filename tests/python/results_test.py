@@ -1,4 +1,4 @@
-"""Cases, errors and results without a coupled run: the same numbers and the same texts as the program's."""
+"""Cases, errors and results without a coupled run: they have the numbers and texts of the program."""
 import copy
 import gc
 import json
@@ -230,7 +230,7 @@ class Memory(unittest.TestCase):
         values = outline.copy()
         del pattern
         gc.collect()
-        others = [ripstop.pattern(small.case()) for _ in range(5)]  # what was freed would be used again
+        others = [ripstop.pattern(small.case()) for _ in range(5)]  # freed memory would be used again
         numpy.testing.assert_array_equal(outline, values)
         self.assertFalse(any(numpy.shares_memory(outline, other.pieces[0].outline) for other in others))
 

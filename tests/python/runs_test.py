@@ -15,7 +15,7 @@ import numpy
 import ripstop
 import small
 
-# Of a result, what two runs of the same case do not share.
+# Members of a result that differ between two runs of the same case.
 WALL_TIME = "wall_time_s"
 
 STOPPED = """
@@ -32,7 +32,7 @@ except KeyboardInterrupt:
 
 
 def numbers(result):
-    """Without what only a run in a folder has, and the time that it took."""
+    """Without the wall time and the members of runs in a folder."""
     return {key: value for key, value in result.items() if key not in (WALL_TIME, "inputs_hash")}
 
 
@@ -162,7 +162,7 @@ class Openings(unittest.TestCase):
             history = numpy.genfromtxt(out / "history.csv", delimiter=",", names=True)
             read = ripstop.inflate(ripstop.read_case(file), out=out)
             self.assertEqual((read.to_json(), len(read.history)), (text, 0))
-        # Columns of a reefing line stand in the file of a reefed opening only.
+        # Only the file of a reefed opening has columns of a reefing line.
         of_reefing = ("reefing_line_mean_n", "reefing_line_largest_n")
         self.assertEqual(run.history.dtype.names, history.dtype.names + of_reefing)
         self.assertEqual(run.history["reefing_line_largest_n"].max(), 0)
@@ -226,7 +226,7 @@ class Interruptions(unittest.TestCase):
         return time.monotonic() - begin
 
     def test_ctrl_c_stops_a_steady_run_within_a_flow_iteration_or_so(self):
-        # Twelve times as many cells: without the signal, minutes; an iteration of the flow takes a good tenth of a second.
+        # With twelve times as many cells a run without the signal takes minutes, and an iteration of the flow over a tenth of a second.
         self.assertLess(self.stopped("case(flow__cells=[50, 50, 60])", "steady(case)", 1.5), 3)
 
     def test_ctrl_c_stops_an_opening_and_a_calibration(self):
@@ -250,7 +250,7 @@ class Interruptions(unittest.TestCase):
         passed, steps = time.monotonic() - begin, counted[0] - before
         done.set()
         counter.join()
-        # With the lock held it would count once or twice.
+        # If the lock were not released, it would count once or twice.
         self.assertGreater(steps, 20 * passed)
         self.assertGreater(steps, 10)
 

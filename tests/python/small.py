@@ -1,4 +1,4 @@
-"""A small case as a caller makes one, the program, and what tests of the package share."""
+"""A small case made in Python, the program, and functions that the tests of the package share."""
 import os
 import pathlib
 import subprocess
@@ -32,7 +32,7 @@ def opening_case():
 
 
 def program(*arguments):
-    """Exit status, standard output and what it says of its error."""
+    """Exit code, standard output and error message."""
     done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, check=False)
     return done.returncode, done.stdout, done.stderr
 

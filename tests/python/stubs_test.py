@@ -1,4 +1,4 @@
-"""Every public name is in the stub, has a docstring, and says its unit."""
+"""Every public name is in the stub and has a docstring with its unit."""
 import ast
 import inspect
 import pathlib
@@ -8,7 +8,7 @@ import ripstop
 from ripstop import _ripstop
 
 PACKAGE = pathlib.Path(ripstop.__file__).parent
-# Endings of names that stand for a unit; docstrings have it in brackets.
+# Endings of names that are units; docstrings have the unit in brackets.
 UNITS = ("_m", "_m2", "_m3", "_kg", "_n", "_s", "_pa", "_m_s", "_n_m", "_hz", "_deg", "_kg_m3", "_j")
 
 

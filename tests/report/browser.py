@@ -14,7 +14,7 @@ FLAGS = ["--headless", "--no-sandbox", "--disable-quic", "--no-first-run", "--di
 
 
 class Browser:
-    """One page. Requests that are not of the page's own file, errors and exceptions are kept."""
+    """One page. It records errors, exceptions, and requests for other files than its own."""
 
     def __init__(self, width=1280, height=900):
         self.profile = tempfile.mkdtemp(prefix="ripstop-chromium-")
@@ -77,14 +77,14 @@ class Browser:
             self.note(answer)
 
     def evaluate(self, expression):
-        """The value of a JavaScript expression; promises are waited for."""
+        """The value of a JavaScript expression, after its promise if it is one."""
         answer = self.call("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
         if "exceptionDetails" in answer:
             raise RuntimeError(answer["exceptionDetails"].get("exception", {}).get("description", answer["exceptionDetails"]["text"]))
         return answer["result"].get("value")
 
     def open(self, file, seconds=60):
-        """A report, until it says that it is ready."""
+        """Opens a report and waits until it is ready."""
         self.call("Page.navigate", url=pathlib.Path(file).resolve().as_uri())
         end = time.time() + seconds
         while time.time() < end:

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""The report in a browser: it opens without an error or a request, shows what result.json says, and its controls work.
+"""The report in a browser: it opens without an error or a request, shows the numbers of result.json, and its controls work.
 
     browser_test.py RIPSTOP TEST_REPORT [FOLDER]
 
-RIPSTOP is the program, TEST_REPORT the room's other tests, which make the page with 50,000 moving nodes; screenshots are left in FOLDER."""
+RIPSTOP is the program, and TEST_REPORT the test program of the room, which makes the page with 50,000 moving nodes. Screenshots are written to FOLDER."""
 import json
 import os
 import pathlib
@@ -148,7 +148,7 @@ class Report(unittest.TestCase):
         shown = number(re.search(r"stress: (\S+) N/m", said)[1])  # of a cell, where the result has a mean over 50 mm
         self.assertGreaterEqual(shown, highest)
         self.assertLess(shown, 1.05 * highest)
-        # The probe under a mouse on the marker is the same cell's.
+        # The probe of a mouse on the marker belongs to the same cell.
         box = self.js("(() => { const m = document.querySelector('.marker').getBoundingClientRect(); return [m.x + 6, m.y + 6]; })()")
         self.browser.mouse("mouseMoved", *box)
         time.sleep(0.3)
@@ -268,8 +268,8 @@ class Report(unittest.TestCase):
     def test_fifty_thousand_moving_nodes_are_smooth(self):
         self.assertLessEqual(self.dome.stat().st_size, 10_000_000)
         self.open(self.dome)
-        # A frame's own work, without the drawing that a graphics processor does: a sixtieth of a second at least on a quiet machine,
-        # the least of several here, with room for a busy one.
+        # Time of a frame without the work of a graphics processor: a sixtieth of a second at least on an idle machine. The smallest
+        # of several is taken, with a margin for other work on the machine.
         least = self.js("""(() => { const c = Page.shown().controls; const times = [];
             for (let i = 0; i < 8; ++i) { const t = performance.now(); c.canopy.set(0.011 * i, c.key); times.push(performance.now() - t); }
             return Math.min(...times); })()""")

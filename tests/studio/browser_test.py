@@ -3,7 +3,7 @@
 
     browser_test.py RIPSTOP [FOLDER]
 
-Screenshots are left in FOLDER."""
+Screenshots are written to FOLDER."""
 import pathlib
 import shutil
 import sys
@@ -119,7 +119,7 @@ class StudioPage(unittest.TestCase):
         self.click("[data-view=text]")
         self.picture("text")
 
-        # A run, a reload in it, and its report.
+        # A run, a reload of the page during it, and its report.
         self.click("[data-view=runs]")
         self.type_into("[data-option=\"--grid\"]", "48,48,64")
         self.click("[data-control=start]")

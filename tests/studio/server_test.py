@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """The server of Studio under requests of its page and of others: it answers only those with its token, Host and Origin, and reads and
-writes nothing outside of its folder.
+writes only in its folder.
 
     server_test.py RIPSTOP"""
 import json

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""steady --flow openfoam --ranks 2 --hostfile on two hosts, which are network namespaces of this machine with an address each and no
-ssh: Open MPI starts its daemon on the second through a script that enters it. Compared with both ranks on this machine. As root."""
+"""Runs `steady --flow openfoam --ranks 2 --hostfile` on two hosts and compares it with both ranks on this machine. The hosts are network
+namespaces with an address each. Open MPI starts its daemon on the second one by a script instead of ssh. Needs root."""
 import argparse
 import json
 import os
@@ -60,7 +60,7 @@ def main():
     words = [str(program), *[str(case) if word == "{case}" else word for word in OPENFOAM]]
     subprocess.run([*words, "--out", str(work / "here/run")], check=True, capture_output=True)
     with TwoHosts() as hosts:
-        agent = work / "enter"  # called as ssh would be: host and a command of a shell
+        agent = work / "enter"  # called like ssh: host and shell command
         agent.write_text(f"""#!/bin/sh
 case "$1" in
 {ADDRESSES[0]}) host={hosts.names[0]} ;;
@@ -74,7 +74,7 @@ exec ip netns exec "$host" sh -c "$*"
         agent.chmod(0o755)
         hostfile = work / "hosts"
         hostfile.write_text("".join(f"{address} slots=1\n" for address in ADDRESSES))
-        # TCP between the hosts; what else this machine may have is not in the namespaces.
+        # TCP between the hosts: other networks of this machine are not in the namespaces.
         environment = {**os.environ, "OMPI_MCA_plm": "rsh", "OMPI_MCA_plm_rsh_agent": str(agent), "OMPI_MCA_btl": "tcp,self",
                        "OMPI_MCA_pml": "ob1"}
         done = subprocess.run(["ip", "netns", "exec", hosts.names[0], *words, "--hostfile", str(hostfile), "--out", str(work / "two/run")],

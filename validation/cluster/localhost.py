@@ -1,4 +1,4 @@
-"""A Slurm of two nodes on this machine: munged, slurmctld and two slurmd on ports of their own, all in one folder."""
+"""Runs a Slurm of two nodes on this machine: munged, slurmctld and two slurmd on separate ports, with all files in one folder."""
 import os
 import pathlib
 import shutil
@@ -135,7 +135,7 @@ PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP
         return dict(line.split() for line in lines)
 
     def wait_for_all(self, seconds):
-        """Until nothing runs or waits."""
+        """Waits until no job runs or waits."""
         over = {"COMPLETED", "FAILED", "CANCELLED", "TIMEOUT", "NODE_FAIL", "OUT_OF_MEMORY"}
         self.wait(lambda: self.jobs() and all(state in over for state in self.jobs().values()), seconds, "the end of all jobs")
         return self.jobs()

@@ -17,7 +17,7 @@ TIMES = re.compile(r"ExecutionTime = (\S+) s  ClockTime = (\S+) s")
 
 
 def measure(program, grid, ranks, folder):
-    """Seconds an iteration: of a rank's processor, and of the clock."""
+    """Seconds of an iteration: processor time of a rank, and wall time."""
     out = folder / f"{grid.replace(',', 'x')}-{ranks}"
     done = subprocess.run([program, "steady", tables.ROOT / "examples/stratos-iv/case.toml", "--speed", "30", "--flow", "openfoam", "--ranks", str(ranks),
                            "--grid", grid, "--set", "parachute.mesh.cloth_nodes=1500", "--set", f"flow.max_iterations={ITERATIONS}", "--set", "coupling.max_iterations=1", "--out", out],

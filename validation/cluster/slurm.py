@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Scripts of --batch slurm through a real Slurm of two nodes on this machine, beside the same commands run here: docs/tables/slurm.md."""
+"""Submits scripts of `--batch slurm` to a Slurm of two nodes on this machine and compares them with the same commands run directly:
+docs/tables/slurm.md."""
 import argparse
 import datetime
 import pathlib
@@ -17,7 +18,7 @@ import localhost  # noqa: E402
 import tables  # noqa: E402
 import trial  # noqa: E402
 
-# A name that does harm wherever it is not quoted. OpenFOAM takes no such folder.
+# A name that does harm where it is not quoted. OpenFOAM refuses such a folder.
 HOSTILE = "it's $(touch harm) `touch harm` #1 %j \"; touch harm; é"
 STEADY = ["steady", "{case}"]
 OPENFOAM = [*trial.COMMANDS["openfoam"].split(), "--ranks", "2"]
@@ -31,7 +32,7 @@ THREADS = re.compile(rb'"threads": \d+')  # a run has its job's cores, a sweep h
 
 
 def differences(folder, whole):
-    """As of a kill, but for the number of threads, on which no figure depends."""
+    """As after a kill, except the number of threads, on which no number depends."""
     with (unittest.mock.patch.object(trial, "TIMES", [*trial.TIMES, (THREADS, b"")]),
           unittest.mock.patch.object(trial, "TIMES_OF_REPORT", [*trial.TIMES_OF_REPORT, (THREADS_OF_REPORT, b"")])):
         return trial.differences(folder, whole)
@@ -57,7 +58,7 @@ class Trial:
         return out
 
     def submit(self, arguments, out, *options):
-        """By the command that was printed; options of sbatch come before a script's name and after submit's."""
+        """By the printed command; options of sbatch precede the name of a script and follow `submit`."""
         written = self.ripstop(arguments, out, "--batch", "slurm")
         assert written.returncode == 0, written.stderr
         command = re.search(r"^Submit: (.*)$", written.stdout, re.MULTILINE).group(1)
@@ -99,7 +100,7 @@ def one_run(t):
 
 
 def near_the_limit(t):
-    """USR1 to the batch shell is what Slurm sends 120 s before the time limit."""
+    """Slurm sends USR1 to the batch shell 120 s before the time limit."""
     whole = t.folder / "here/steady"
     out = t.folder / "limited/steady"
     _, job = t.submit(STEADY, out)
@@ -146,7 +147,7 @@ def sweep(t):
 
 
 def cancelled(t):
-    """An element of the second wave is cancelled while it runs; the table says so, and ripstop sweep goes on."""
+    """An element of the second wave is cancelled while it runs; the table reports it, and `ripstop sweep` continues."""
     whole = t.folder / "here/sweep"
     out = t.folder / "cancelled/sweep"
     _, last = t.submit(SWEEP, out)

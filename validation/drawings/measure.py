@@ -6,7 +6,7 @@
 The pieces of three designs are written as DXF in millimetres and inches, and as SVG. LibreCAD prints a DXF at scale 1 to PDF,
 whose lines are measured; Inkscape imports it by its own filter and measures the group of each layer. The width and height of
 the outlines must be those of the design: within 0.01 mm in Inkscape, and within 0.02 % in LibreCAD, whose print of a drawing in
-millimetres is 0.015 % short at any resolution (in inches 0.002 %). Writes docs/tables/drawings.md; exit status 1 where one differs.
+millimetres is 0.015 % too short at any resolution (in inches 0.002 %). Writes docs/tables/drawings.md; the exit code is 1 where one differs.
 """
 import argparse
 import datetime
@@ -54,7 +54,7 @@ def extent(points):
 
 
 def by_librecad(dxf):
-    """Width and height of all lines in the PDF that LibreCAD prints at scale 1 [mm]. Letters are lines there, so texts are left out."""
+    """Width and height of all lines in the PDF that LibreCAD prints at scale 1 [mm]. Texts are left out, because their letters are lines there."""
     lines = dxf.with_suffix(".lines.dxf")
     lines.write_text("\n0\n".join(entity for entity in dxf.read_text().split("\n0\n") if not entity.startswith("TEXT\n")))
     subprocess.run(["librecad", "dxf2pdf", "-m", "-s", "1", "-p", "2540x2540", lines.name], cwd=dxf.parent, env=ENVIRONMENT, capture_output=True, check=True,
@@ -72,7 +72,7 @@ def by_inkscape(file, layer):
     svg = file.with_suffix(".inkscape.svg")
     drawn = subprocess.run(["/usr/bin/python3", IMPORT, "--scalemethod=file", str(file)], env=ENVIRONMENT, capture_output=True, text=True, check=True,
                            timeout=120).stdout
-    # Text and other layers out, and a hair for a stroke.
+    # Removes text and other layers, and uses a hairline as stroke.
     groups = re.findall(r'<g inkscape:groupmode="layer" inkscape:label="(\w+)">(.*?)</g>', drawn, re.S)
     head = drawn[:drawn.index("<desc>")]
     body = "".join(part for name, part in groups if name == layer)
@@ -106,7 +106,7 @@ def main():
                 folder = pathlib.Path(name, f"{case}-{unit}")
                 subprocess.run([options.ripstop, "pattern", ROOT / f"examples/{case}/case.toml", "--units", unit, "--out", folder], check=True,
                                capture_output=True)
-                for dxf in sorted(folder.glob("*.dxf")):  # before copies without text are beside them
+                for dxf in sorted(folder.glob("*.dxf")):  # before copies without text are in the same folder
                     drawn = polylines(dxf)
                     finished = [factor * length for length in extent(drawn["SEAM"][0])]
                     cut = [factor * length for length in extent(sum((line for lines in drawn.values() for line in lines), []))]

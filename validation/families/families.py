@@ -1,19 +1,20 @@
 #!/usr/bin/env python3
-"""Every family's example and the campaign's three parachutes in steady flow, under the air's own load and a uniform one.
+"""Computes the example of every family and the three parachutes of the campaign in steady flow, under the load of the flow and a uniform
+one.
 
     make validate-families            (or: families.py --ripstop build/bin/ripstop --runs runs/families)
 
-Runs `ripstop steady` on each with the library's cloth as a sheet, its own permeability, nothing calibrated: once with
-`coupling.load` "of-flow", the default, and once with "uniform". The drag of the families beside what Knacke's manual gives
-for the type goes into docs/tables/families.md and as data for `ripstop size` into examples/families.json (shipped.py), both loads side by side into docs/tables/loads.md; pictures and plots stay
-in the run folders, `load.png` and `pressure.png` first. Runs that are finished cost nothing. `--grid 40 40 50 --set
-KEY=VALUE` pass on to `ripstop`, for a quick look; the loads are then printed only.
+Runs `ripstop steady` on each with cloth of the library as a sheet of its specified permeability, without calibration. `coupling.load` is
+"of-flow", the default, and then "uniform". docs/tables/families.md compares the drag with Knacke's manual, and examples/families.json
+has it as data for `ripstop size` (shipped.py). docs/tables/loads.md compares both loads. Pictures and plots, first of all `load.png`
+and `pressure.png`, remain in the run folders. Finished runs are not repeated. `--grid 40 40 50 --set KEY=VALUE` are passed to `ripstop`
+for a quick test; the loads are then only printed.
 
-`families.py --in-time` (make validate-families-in-time) has the families that Knacke's manual knows with a wake that sheds
-in its place: means over time with their standard errors, into docs/tables/families-in-time.md.
+`families.py --in-time` (make validate-families-in-time) computes the families of Knacke's manual with an unsteady wake: means over time
+with their standard errors, in docs/tables/families-in-time.md.
 
-`families.py --openings` (make validate-openings) opens them in their own air with the riser held, from a skirt of a quarter
-of the nominal diameter, into docs/tables/families-openings.md.
+`families.py --openings` (make validate-openings) computes their coupled inflation with a fixed riser, from a skirt of a quarter of the
+nominal diameter: docs/tables/families-openings.md.
 """
 import argparse
 import csv
@@ -33,13 +34,13 @@ from campaign import SHEET_SPECIFIED  # pylint: disable=wrong-import-position
 
 CALIBRATED = "f-111"  # on Stratos IV: the cloth of the campaign, whose cases have the paper's box and porosity
 LOADS = ["of-flow", "uniform"]
-# Of cloth of the usual permeability, as the handbook's canopies were.
+# Cloth of the usual permeability, like that of the canopies in the handbook.
 OPENING = ["parachute.canopy_material=mil-c-7020-type-i", "inflation.duration_s=0.4", "inflation.frames=80",
            "inflation.cloth_damping_s=1e-5", "inflation.low_pass_hz=100"]
-# Narrow rings that wrinkle turn over and stay so, and the canopy half open: docs/theory/inflation.md.
+# Narrow rings that wrinkle turn over, and the canopy then remains half open: docs/theory/inflation.md.
 OPENING_OF = {"ringslot": ["inflation.cloth_compression=0.1"]}
 MOUTHS = {"cross": 0.15}  # radius of the folded skirt [m] where 0.12 m cannot be folded
-IN_TIME = "in-time"  # in the place of a load: that of the flow, in time
+IN_TIME = "in-time"  # instead of a load: that of the flow, in time
 
 
 def examples():
@@ -83,7 +84,7 @@ def in_time_table(options, results):
             steady = [float(row["drag_n"]) for row in csv.DictReader(file) if row["in_time"] == "0"][-1]
         per_newton, (low, high) = r["drag_coefficient"] / r["drag_n"], r["known_drag_coefficient"]
         error = per_newton * r["unsteady"]["drag_standard_error_n"]
-        off = r["drag_coefficient"] / min(max(r["drag_coefficient"], low), high) - 1  # beside the nearer end of the range
+        off = r["drag_coefficient"] / min(max(r["drag_coefficient"], low), high) - 1  # relative to the nearer end of the range
         inside = "yes" if abs(off) * low <= error else f"{100 * off:+.0f} %"
         rows.append([name, f"{per_newton * steady:.3f}", f"{r['drag_coefficient']:.3f} +- {error:.3f}", printed_range(r), inside,
                      f"{r['drag_n']:.1f}", str(r["coupling_iterations"]), f"{r['wall_time_s']:.0f}"])
@@ -133,13 +134,13 @@ def in_handbook():
 
 
 def opened(options, name):
-    """Result of the opening, and what the handbook says of its filling distance."""
+    """Result of the opening, and the filling distance of the handbook."""
     ripstop, case, folder = str(options.ripstop.resolve()), f"examples/{name}/case.toml", folder_of(options, name, "opening")
     command = [ripstop, "inflate", case, "--air", "coupled", "--out", str(folder)]
     for setting in [*OPENING, *OPENING_OF.get(name, []), f"inflation.initial_radius_m={MOUTHS.get(name, 0.12)}", *options.set]:
         command += ["--set", setting]
     print("$ ripstop " + " ".join(command[1:]), flush=True)
-    if subprocess.run(command, cwd=ROOT, check=False).returncode not in (0, 4):  # 4: not settled; the peak is there all the same
+    if subprocess.run(command, cwd=ROOT, check=False).returncode not in (0, 4):  # 4: the load is not yet steady, but the peak is complete
         sys.exit(f"{name}: ripstop failed; the same command again goes on from here")
     load = subprocess.run([ripstop, "load", case, "--mass", "1", "--speed", "20", "--json", "--out", str(folder.parent / f"{name}-load")],
                           cwd=ROOT, check=True, capture_output=True, text=True)
@@ -147,7 +148,7 @@ def opened(options, name):
 
 
 def pull_of_last_fifth(folder):
-    """Of the air on canopy and lines [N], and how far it is turned off the stream [deg]: a canopy that hangs free swings aside."""
+    """Force of the flow on canopy and lines [N], and its angle to the stream [deg], because a free canopy swings."""
     with open(folder / "air.csv", encoding="utf-8") as file:
         rows = [{key: float(row[key]) for key in ("time_s", "step_s", "drag_n", "side_force_x_n", "side_force_y_n")}
                 for row in csv.DictReader(file)]
@@ -159,7 +160,7 @@ def pull_of_last_fifth(folder):
 
 
 def over_whole_area(r, known, nominal_diameter):
-    """The peak over the dynamic pressure of the whole area, and the same of the handbook's C_x and drag coefficients."""
+    """The peak over the product of dynamic pressure and nominal area, and the same of the handbook's C_x and drag coefficients."""
     of_area = known["density_kg_m3"] / 2 * known["speed_m_s"] ** 2 * math.pi / 4 * nominal_diameter ** 2  # [N]
     low, high = (r["knacke_coefficient"] * drag for drag in known["handbook_drag_coefficient"])
     return f"{r['low_pass_peak_load_n'] / of_area:.2f}", f"{low:.2f} to {high:.2f}"

@@ -4,8 +4,8 @@
     make validate-flights            (or: campaign.py --ripstop build/bin/ripstop --runs runs/flights --jobs 2)
 
 Runs `ripstop fly` on the cases of this folder with one payload for all, and writes docs/tables/flights.md and the plots of the
-guide. Nothing is fitted. Runs that are finished cost nothing; a run that was stopped continues. With names of flights only
-those are run. `--tables` runs nothing: the tables have the flights that are finished.
+guide. Nothing is fitted. Finished runs are not repeated, and interrupted runs continue. With names of flights only these
+are run. `--tables` runs nothing: the tables have the finished flights.
 """
 import argparse
 import concurrent.futures
@@ -24,7 +24,7 @@ import tables  # pylint: disable=wrong-import-position
 import vent_plot  # pylint: disable=wrong-import-position
 
 PAYLOAD_KG, RELEASED_AT_DEG = 2.4, 10
-BEGIN_S = 2  # of the force balance: the start shape has adapted
+BEGIN_S = 2  # of the force balance: the canopy has adapted from its start shape
 
 
 @dataclasses.dataclass
@@ -78,7 +78,7 @@ def command_of(options, name):
 
 
 def fly(options, name):
-    """Whether the flight has a result; exit code 4 is that of a flight that must not be used, whose result says why."""
+    """Whether the flight has a result. Exit code 4 means that the flight must not be used; its result has the reason."""
     command = command_of(options, name)
     print("$ ripstop " + " ".join(command[1:]), flush=True)
     options.runs.mkdir(parents=True, exist_ok=True)

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""The coefficients in descent of free flights, as data for `ripstop size`: examples/flown.json.
+"""Writes the coefficients in descent of free flights for `ripstop size` into examples/flown.json.
 
     /usr/bin/python3 validation/flight/shipped.py runs/flights/flat-circular-f-111 runs/flights/cross-f-111 ...
     /usr/bin/python3 validation/flight/shipped.py runs/flights/*
 
-Each folder is a finished run of `ripstop fly`. A row is for a family and a cloth; where several folders have the same, the
-longest flight counts. Flights of a changed vent, of other cells or steps, and flights that failed are left out.
+Each folder is a finished run of `ripstop fly`. A row is for a family and a cloth, with the longest flight of both. Flights with
+another vent, other cells or other steps, and failed flights, are left out.
 """
 import json
 import pathlib
@@ -27,7 +27,7 @@ def vent_share(parachute):
 
 
 def row_of(folder):
-    """None where the flight is not one of the family's own canopy by the default method."""
+    """None unless the flight is that of the family's example by the default method."""
     result = json.loads((folder / "result.json").read_text())
     run = json.loads((folder / "run.json").read_text())
     case, flight = run["case"], run["case"].get("flight", {})

@@ -13,7 +13,7 @@ import re
 import subprocess
 
 import score
-import tables  # found by score
+import tables  # imported by score
 
 HERE = pathlib.Path(__file__).resolve().parent
 CASE = "validation/ojf/adept.toml"
@@ -86,7 +86,7 @@ def rows_of(campaign, runs):
     found = []
     for detail, unchanged, label, source, arguments, name in commands(runs):
         folder = campaign.runs / "adept-details" / name
-        campaign.call("steady", *arguments, "--out", folder, also=(4,))  # 4: not converged, which the table says
+        campaign.call("steady", *arguments, "--out", folder, also=(4,))  # 4: not converged, as the table reports
         result = json.loads((folder / "result.json").read_text())
         check = subprocess.run([str(campaign.ripstop), "check", *arguments, "--json"], cwd=tables.ROOT, check=True,
                                capture_output=True, text=True)

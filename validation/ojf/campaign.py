@@ -1,30 +1,29 @@
 #!/usr/bin/env python3
-"""Calibrates on Stratos IV, predicts WALRUS and ADEPT, varies what the predictions depend on, and scores the frozen ones.
+"""Calibrates on Stratos IV, predicts WALRUS and ADEPT, varies the inputs of the predictions, and scores the frozen predictions.
 
     make validate-ojf            (or: campaign.py --ripstop build/bin/ripstop --runs runs/ojf STAGE ...)
 
-Stages, each from what the ones before it left; without a name all of them run:
+Stages, each with the results of the earlier ones; without a name all of them run:
     calibrate  porosity on Stratos IV, nominal basis, least squares over five speeds     -> calibration.csv
     predict    WALRUS and ADEPT, both speed bases, nonlinear and linear                  -> predictions.csv
     reproduce  Stratos IV itself with the calibrated cloth, and its shape against images
     sheet      the cloth as a sheet of its specified permeability, nothing calibrated    -> predictions.csv
     sheet-calibrated  the same of a permeability that is calibrated on Stratos IV        -> predictions.csv
-    uncertain-jet  what is not known of the jet: where the nozzle ended, how the speed was taken  -> uncertainty.csv
-    jet        the specified cloth, nothing calibrated, in the open jet of the tunnel that was there; Stratos IV in free
-               air beside it                                                             -> predictions.csv
-    unsteady-jet  the same with a wake that sheds: means over time                       -> predictions.csv
-    uncertain  what each prediction of the paper model depends on                        -> uncertainty.csv
+    uncertain-jet  unknown details of the jet: end of the nozzle, place of the speed measurement  -> uncertainty.csv
+    jet        the specified cloth, nothing calibrated, in the open jet of the tunnel; Stratos IV also in free air
+                                                                                         -> predictions.csv
+    unsteady-jet  the same with an unsteady wake: means over time                        -> predictions.csv
+    uncertain  varied inputs of each prediction of the paper model                       -> uncertainty.csv
     uncertain-sheet  the same for the calibrated sheet                                   -> uncertainty.csv
-    openings   the three openings of the campaign in their own air, in the open jet, nothing calibrated; what they depend
-               on, on Stratos IV                                                       -> openings.csv, openings-varied.csv
-    compare    nonlinear beside linear on Stratos IV at 30 m/s
+    openings   coupled inflation of the three parachutes in the open jet, nothing calibrated; varied inputs for Stratos IV
+                                                                               -> openings.csv, openings-varied.csv
+    compare    nonlinear and linear cloth of Stratos IV at 30 m/s
     openfoam   Stratos IV at 30 m/s with OpenFOAM
     report     tables in docs/tables, plots
     adept      drag of ADEPT against details of its sewing that are not published        -> adept-details.csv
     score      frozen predictions of WALRUS and ADEPT against their measurements         -> docs/tables/ojf-score.md
-Every stage is made of `ripstop` commands that go on where they were killed; finished ones cost nothing. No stage but
-`score` reads a measurement of WALRUS or ADEPT. The predictions that were made before these were known are in frozen/ and no stage
-writes there (score.py).
+A stage consists of `ripstop` commands, which continue after a kill; finished ones are not repeated. Only the stage `score` reads
+measurements of WALRUS and ADEPT. The predictions made before these were known are in frozen/, which no stage changes (score.py).
 """
 import argparse
 import csv
@@ -49,13 +48,13 @@ PARACHUTES = ("stratos-iv", *BLIND)
 BASES = ("nominal", "measured")
 MODELS = ("paper", "sheet-calibrated", "sheet-specified", "specified-jet", "specified-unsteady-jet")
 # The runs of `uncertain` are made at one speed, nominal basis, nonlinear, on a grid of an eighth of the printed cells:
-# relative changes are taken for all speeds and for the printed grid, which stands among the grids.
+# the relative changes apply to all speeds and to the printed grid, which is one of the grids.
 UNCERTAIN_SPEED = "20"
 COLUMNS = ["parachute", "speed_basis", "nominal_m_s", "speed_m_s", "density_kg_m3", "porosity_model", "fabric_model",
            "drag_n", "drag_area_m2", "coupling_iterations", "wall_time_s", "standard_error_n", "uncertainty_n"]
 
-# The cloth as a sheet, far entraining sides, second order, cells of 4 cm about the canopy. The wake of tight cloth settles
-# slowly: the mean of the last iterations of each flow stands.
+# The cloth as a sheet, far entraining sides, second order, cells of 4 cm about the canopy. The wake of tight cloth converges
+# slowly, so the mean of the last iterations of each flow is used.
 SHEET_FLOW = ["flow.porosity_model=sheet", "flow.box_m=[6,6,9]", "flow.cells=[80,80,98]", "flow.canopy_position_m=4",
               "flow.core.size_m=[1.8,1.8,2.2]", "flow.core.growth=1.125", "flow.sides=entraining",
               "flow.convection=second-order", "flow.residual=3e-4", "flow.max_iterations=300", "flow.average_over=60",
@@ -63,7 +62,7 @@ SHEET_FLOW = ["flow.porosity_model=sheet", "flow.box_m=[6,6,9]", "flow.cells=[80
 # The pressure drop of the calibrated sheet is linear, or Ergun's; the one that fits Stratos IV better is taken.
 SHEET_KNOBS = {"permeabilities": "300,600,1200", "gammas": "0.3,0.4,0.5"}
 SHEET_SPECIFIED = [*SHEET_FLOW, "parachute.canopy_material=f-111-physical"]
-# What a prediction depends on: source -> (label, settings) of each variation, beside the unchanged run.
+# Inputs of a prediction: source -> (label, settings) of each variation, compared with the unchanged run.
 VARIATIONS = {
     "position": [("-1/3 cell", ["flow.canopy_position_m=1.982222"]), ("+1/3 cell", ["flow.canopy_position_m=2.017778"])],
     "box": [("3 x 3 m", ["flow.box_m=[3,3,4]", "flow.cells=[75,75,75]"])],
@@ -76,7 +75,7 @@ VARIATIONS = {
 # The same for the sheet of calibrated permeability, on its own grid.
 SHEET_VARIATIONS = {
     "grid": [("5 cm", ["flow.cells=[66,66,80]"]), ("3.2 cm", ["flow.cells=[92,92,112]"])],
-    "position": [("half a cell", ["flow.canopy_position_m=4.02", "flow.core.start_m=3.45"])],  # else the core goes along
+    "position": [("half a cell", ["flow.canopy_position_m=4.02", "flow.core.start_m=3.45"])],  # else the core moves with the canopy
     "sides": [("slip", ["flow.sides=slip"])],
     "turbulence": [("intensity 5 %", ["flow.turbulence_intensity=0.05"])],
 }
@@ -94,7 +93,7 @@ class Campaign:
         self.parachutes, self.bases = options.parachutes, options.bases
 
     def call(self, *arguments, also=()):
-        """Runs ripstop; a failure ends the stage, and the same command again goes on."""
+        """Runs ripstop. A failure ends the stage, and the same command continues it."""
         command = [str(self.ripstop), *map(str, arguments)]
         print("$ ripstop " + " ".join(command[1:]), flush=True)
         code = subprocess.run(command, cwd=ROOT, check=False).returncode
@@ -140,7 +139,7 @@ def calibrated(campaign):
 
 
 def frozen_sheet(campaign):
-    """Of the laws of a sheet the one that fits Stratos IV best."""
+    """The law of a sheet that fits Stratos IV best."""
     results = [campaign.calibration(f"sheet-calibrated/{knob}") for knob in SHEET_KNOBS]
     if None in results:
         sys.exit("the sheet is not calibrated yet: run the stage sheet-calibrated first")
@@ -178,7 +177,7 @@ def write_table(path, columns, rows):
 
 
 def provenance(campaign, model, calibration=None):
-    """Which program and which calibration made the rows of a model."""
+    """Program and calibration of the rows of a model."""
     path = HERE / "predictions.json"
     known = json.loads(path.read_text()) if path.exists() else {}
     commit = subprocess.run(["git", "-C", str(ROOT), "rev-parse", "--short", "HEAD"], capture_output=True, text=True,
@@ -218,14 +217,14 @@ def stage_reproduce(campaign):
 
 
 def stage_sheet(campaign):
-    """On all three, Stratos IV too, whose drag is known."""
+    """Computes all three parachutes, including Stratos IV, whose drag is known."""
     campaign.sweep("stratos-iv", "sheet-specified/stratos-iv-nominal", [*SHEET_SPECIFIED, "flow.speed_basis=nominal"],
                    "--speeds", SPEEDS["stratos-iv"], "--vary", "coupling.linear=false")
     predict_sheet(campaign, "sheet-specified", [])
 
 
 def stage_sheet_calibrated(campaign):
-    """The cloth that fits Stratos IV's five drag areas (nominal basis, least squares), frozen, on the blind ones."""
+    """Computes WALRUS and ADEPT with the cloth that fits the five drag areas of Stratos IV (nominal basis, least squares)."""
     for knob, values in SHEET_KNOBS.items():
         campaign.calibrate(f"sheet-calibrated/{knob}", SHEET_SPECIFIED, f"--{knob}", values, "--shifts", "1")
     result = frozen_sheet(campaign)
@@ -243,7 +242,7 @@ def predict_sheet(campaign, model, cloth, calibration=None):
 
 
 def predict_in_jet(campaign, model, settings):
-    """All three, Stratos IV too, whose drag is known and goes into nothing."""
+    """Computes all three parachutes. The known drag of Stratos IV is not used."""
     for basis in campaign.bases:
         for parachute in campaign.parachutes:
             folder = f"{model}/{parachute}-{basis}"
@@ -258,7 +257,7 @@ def predict_in_jet(campaign, model, settings):
 
 
 def write_unknowns_of_jet():
-    """All uncertainties of the rows in the jet: the largest of each source in uncertain-jet, and a mean's standard error, together.
+    """Combined uncertainty of the rows in the jet: the largest of each source in uncertain-jet, and the standard error of the mean.
     Empty before that stage."""
     largest = {parachute: {} for parachute in PARACHUTES}  # by source, as a share of the drag
     with open(HERE / "uncertainty.csv", newline="") as file:
@@ -283,7 +282,7 @@ def stage_jet(campaign):
 
 
 def stage_uncertain_jet(campaign):
-    """Beside what is varied: a speed that was read one diameter before the canopy, and not in the empty jet or the nozzle."""
+    """In addition to the variations: a speed measured one diameter upstream of the canopy instead of in the empty jet or the nozzle."""
     rows = [("base", "", [f"flow.speed_m_s={UNCERTAIN_SPEED}", JET_DISTANCE])]
     rows += [(source, label, extra if any("nozzle_distance" in key for key in extra) else [*extra, JET_DISTANCE])
              for source, all_of in JET_VARIATIONS.items() for label, extra in all_of]
@@ -305,8 +304,8 @@ def stage_uncertain(campaign):
     grids = [("grid", cells.replace(",", "x"), [f"flow.cells=[{cells}]", *law(result, ratio)])
              for cells, ratio in GRIDS if cells != BASE[0]]
     porosity = porosity_rows(result, BASE[1])
-    # A row starts from the one before it or after it, nearer to the middle: the unchanged run stands there, among those
-    # that can take over its flow field.
+    # A row starts from its neighbour towards the middle, where the unchanged run is, if its flow field can be
+    # continued.
     rows = [*grids, *varied["box"], *varied["sides"], varied["position"][0], porosity[0], ("base", "", [f"flow.speed_m_s={UNCERTAIN_SPEED}"]),
             porosity[1], varied["position"][1], *varied["shape"], *varied["turbulence"]]
     drags = varied_drags(campaign, "paper", [f"flow.cells=[{BASE[0]}]", *law(result, BASE[1])], rows)
@@ -323,7 +322,7 @@ def stage_uncertain_sheet(campaign):
 
 
 def porosity_rows(result, factor):
-    """The calibrated number a standard error less and more, its coefficients times a factor."""
+    """The calibrated coefficients times a factor: one standard error less and more."""
     rows = []
     for sign, name in ((-1, "- 1 s"), (1, "+ 1 s")):
         knob = result["value"] + sign * result["standard_error"]
@@ -361,8 +360,8 @@ def ergun(gamma, result, factor):
 
 
 def write_uncertainty(model, drags):
-    """Change of drag of each variation with the frozen cloth, and as a ratio to Stratos IV under the same variation: what
-    is left when the cloth is calibrated again under it, to first order. Replaces the rows of this model and these
+    """Change of drag of each variation with the frozen cloth, and as a ratio to Stratos IV under the same variation. To first
+    order, the ratio is the change with a new calibration under that variation. Replaces the rows of this model and these
     parachutes in uncertainty.csv."""
     path = HERE / "uncertainty.csv"
     table = []
@@ -401,7 +400,7 @@ def opening(campaign, parachute, name, air, command):
     speed, density, radius = OPENINGS[parachute]
     folder = campaign.runs / "openings" / name
     began = time.monotonic()
-    campaign.call(*command, "--out", folder, also=(4,))  # not settled: the peak is there all the same
+    campaign.call(*command, "--out", folder, also=(4,))  # the load is not yet steady, but the peak is complete
     result = json.loads((folder / "result.json").read_text())
     wall = folder.parent / f"{name}.seconds"
     if not wall.exists():
@@ -432,7 +431,7 @@ def stage_openings(campaign):
                        "peak_percent": f"{100 * changes[parachute][label]:.1f}"})
     for row in rows:
         own = sorted({**changes["stratos-iv"], **changes[row["parachute"]]}.items(), key=lambda one: abs(one[1]))
-        kinds = {label.split()[-1]: change for label, change in own}  # by its last word: the largest of each
+        kinds = {label.split()[-1]: change for label, change in own}  # by the last word: the largest of each
         row["peak_100hz_pm_n"] = f"{math.hypot(*kinds.values()) * float(row['peak_100hz_n']):.0f}"
     write_table(HERE / "openings-varied.csv", list(varied[0]), varied)
     for parachute, settings in DAMPED.items():

@@ -2,7 +2,7 @@
 """Writes the campaign's tables, docs/tables/ojf-*.md.
 
 Usage: report.py RUNS. RUNS is the folder that campaign.py fills. Every number comes from the result.json,
-run.json and sweep.csv in it, or from predictions.csv and uncertainty.csv; what has not been run is left out.
+run.json and sweep.csv in it, or from predictions.csv and uncertainty.csv. Rows without a run are left out.
 """
 import csv
 import json
@@ -69,7 +69,7 @@ def sheet(runs):
 
 
 def jet(runs):
-    """Stratos IV with the specified permeability in the open jet, steady and in time, beside what was measured."""
+    """Stratos IV with the specified permeability in the open jet, steady and in time, compared with the measurement."""
     case = tomllib.loads((HERE / "stratos-iv.toml").read_text())
     known = {float(m["nominal_speed_m_s"]): m["drag_n"] for m in case["measured"]}
     free = {float(r["speed_m_s"]): float(r["drag_n"]) for r in rows(runs / "specified-free/stratos-iv-nominal/sweep.csv")}

@@ -1,16 +1,16 @@
-"""The tunnel of the campaign as settings of a case, and what of it nobody says."""
+"""The tunnel of the campaign as settings of a case, and its undocumented details."""
 
-# The Open Jet Facility as [NFM] has it: an octagonal nozzle of 2.85 m. How far before the canopy it ends, how thick its
-# edge is and where the speed was read, nobody says: the distance is assumed, all of it is varied. The rest is what stands
-# where a case says nothing; box and cells are given because the case files have the printed ones.
+# The Open Jet Facility of [NFM]: an octagonal nozzle of 2.85 m. Its distance from the canopy, the thickness of its edge and the
+# place of the speed measurement are undocumented. The distance is assumed, and all of them are varied. Other settings are
+# defaults; box and cells are given because the case files have the printed ones.
 SPECIFIED = ["flow.porosity_model=sheet", "parachute.canopy_material=f-111-physical"]
 JET_FLOW = ["flow.tunnel.kind=open-jet", "flow.tunnel.shape=octagon", "flow.tunnel.width_m=2.85", "flow.box_m=[8,8,9]",
             "flow.cells=[88,88,98]"]
 JET_DISTANCE = "flow.tunnel.nozzle_distance_m=3"
 JET_SPECIFIED = [*SPECIFIED, *JET_FLOW, JET_DISTANCE]
 FREE_FLOW = ["flow.box_m=[8,8,9]", "flow.cells=[88,88,98]", "flow.canopy_position_m=3"]
-# Of steady flows, on the cells of those in time: a quarter of one beside the axis. Only changes are taken from them, so
-# the cloth has the mean pressure, with which slack cloth settles at once.
+# Settings of steady flows on the cells of the unsteady ones, a quarter of a cell off the axis. Only changes are used, so
+# the cloth has the mean pressure, under which slack cloth converges quickly.
 JET_BASE = [*SPECIFIED, *JET_FLOW, "flow.core.off_axis=0.25", "coupling.load=uniform"]
 JET_VARIATIONS = {
     "nozzle": [("2 m before the skirt", ["flow.tunnel.nozzle_distance_m=2", "flow.box_m=[8,8,8]"]),

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""The built-in engine beside OpenFOAM on a mesh that follows the cloth: bodies, and canopies as they stand in the wind.
+"""Compares the built-in engine with OpenFOAM on a mesh that follows the cloth: rigid bodies and inflated canopies.
 
     make judge        (or: judge.py --ripstop build/bin/ripstop --bench build-check/bench/bench_judge --across 24)
 
-`ripstop steady` inflates a flat circular canopy, a ringsail (ADEPT) and Stratos IV, with cloth as specified
-and nothing calibrated, at 20 m/s, in runs/judge; finished runs cost nothing. Their shapes, held rigid, and seven bodies then
-stand in both engines (bench_judge), the disk on coarser cells as well: what accuracy takes what time. The tables are
-docs/tables/judge.md; some plots go beside it, the others stay in runs/judge.
+`ripstop steady` inflates a flat circular canopy, a ringsail (ADEPT) and Stratos IV at 20 m/s in `runs/judge`, with cloth as
+specified and without calibration; finished runs are not repeated. bench_judge then computes their rigid shapes and seven bodies with
+both engines. The disk is also computed on coarser cells, for the time to a given accuracy. The tables are `docs/tables/judge.md`;
+some plots are in the same folder, the others in `runs/judge`.
 """
 import argparse
 import json
@@ -61,7 +61,7 @@ def main():
 
 
 def judged(options, across, words):
-    """What bench_judge prints, line by line."""
+    """Output of bench_judge by lines."""
     command = [str(options.bench.resolve().relative_to(ROOT)), f"runs/judge/{across}", str(across), *words]
     lines = []
     with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True) as bench:
@@ -74,7 +74,7 @@ def judged(options, across, words):
 
 
 def timed(rows):
-    """Both engines' drag beside their own finest, and minutes, from rows of bench_judge, the finest last."""
+    """Drag of both engines relative to their own finest grid, and minutes, from rows of bench_judge, the finest last."""
     cells = [[word.strip() for word in row.split("|")[1:-1]] for row in rows]
     table = []
     for row in cells:

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Lines of src/ that the tests run, into docs/tables/coverage.md: what gcov says of the objects in build-coverage/.
+"""Writes the lines of src/ that the tests run into docs/tables/coverage.md, by gcov from the objects in build-coverage/.
 
     make coverage
 
-The tests with OpenFOAM are left out, and Python's. A line counts once however often it is compiled (templates, kernels
-of several instruction sets); a header by every file that includes it.
+The tests with OpenFOAM and those in Python are left out. A line counts once, although templates and kernels of several instruction
+sets are compiled several times; a header counts in every file that includes it.
 """
 import collections
 import datetime
@@ -22,7 +22,7 @@ BUILD = ROOT / "build-coverage"
 
 
 def lines_run():
-    """{file: {line: whether a test came by}} of src/."""
+    """{file: {line: whether a test runs it}} of src/."""
     found = collections.defaultdict(lambda: collections.defaultdict(bool))
     for notes in sorted(note for part in ("ripstop", "ripstop_text") for note in (BUILD / f"CMakeFiles/{part}.dir").rglob("*.gcno")):
         told = subprocess.run(["gcov-12", "--json-format", "--stdout", str(notes)], cwd=BUILD, text=True, check=True,

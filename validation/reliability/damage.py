@@ -1,4 +1,4 @@
-"""The trials of torture.py that spoil one file of a run folder, and then whatever reads the folder."""
+"""The trials of torture.py that damage one file of a run folder, and the commands that read the folder."""
 import random
 import shutil
 import signal
@@ -9,7 +9,7 @@ HOW = ["cut", "flipped", "removed"]
 FINISHED = ["steady", "inflate", "sweep", "openfoam"]
 INTERRUPTED = {"steady": 0.6, "inflate": 0.6, "sweep": 0.75, "openfoam": 0.6}  # killed at this share of its writes
 
-# What reads the folder {run} of each command beside the command itself; {out} is a new place, and what stands in it is compared.
+# Commands that read the folder {run} of each command, other than the command itself; files in the new folder {out} are compared.
 READERS = {
     "steady": ["descent {run} --mass 4 --json", "export json {run}", "load {case} --mass 4 --speed 25 --steady {run} --json --out {out}",
                "inflate {case} --steady {run} --check", "report {run} --out {out}/report.html", "report {run}",
@@ -34,7 +34,7 @@ def spoil(path, how, rng):
 
 
 def given_by(bench, words, run, out):
-    """Exit code, what the command gives (its output, and what it leaves in {out}), what it says on standard error."""
+    """Exit code, result (output and files in {out}), and standard error of a command."""
     shutil.rmtree(out, ignore_errors=True)
     out.mkdir()
     arguments = [word.format(case=bench.case, run=run, out=out, image=IMAGE) for word in words.split()]
@@ -46,7 +46,7 @@ def given_by(bench, words, run, out):
 
 
 def readers(bench, name):
-    """words -> what the command gives of the undisturbed folder; made once."""
+    """words -> result of the command with the undisturbed folder; made once."""
     with bench.lock:
         return readers_alone(bench, name)
 
@@ -66,7 +66,7 @@ def readers_alone(bench, name):
 
 
 def judge(words, code, wanted, same, err, file, run):
-    """Nothing where all is well, else what is wrong."""
+    """None, or the fault."""
     if code == wanted:
         return "" if same else f"{words}: gives something else without a word ({trial.last_line(err)})"
     named = file.rsplit("/", maxsplit=1)[-1] in err or str(run) in err
@@ -85,14 +85,14 @@ def finished(bench, name, file, how):
         spoiled = {path: path.read_bytes()}
     wrong, noticed = [], 0
     for words, (code_before, before) in readers(bench, name).items():
-        for path, text in spoiled.items():  # a report is written anew by the one before
+        for path, text in spoiled.items():  # a report is written again by the command before
             path.write_bytes(text)
         code, given, err = given_by(bench, words, run, run.parent / "made")
         noticed += code != code_before
         wrong.append(judge(words, code, code_before, given == before, err, file, run))
     code, _, err = bench.run(bench.command(name, run), trial.FASTER.get(name))
     noticed += code != wanted
-    # OpenFOAM's own case and the checkpoint are what the run went on from: nothing more is made of them by this command.
+    # The run has continued from the case of OpenFOAM and the checkpoint; this command does not use them.
     unlike = trial.differences(run, whole, lambda n: "checkpoint" in n or "flow/" in n)
     wrong.append(judge("again", code, wanted, not unlike, err + " " + " ".join(unlike[:5]), file, run))
     wrong = [text for text in wrong if text]
@@ -100,7 +100,7 @@ def finished(bench, name, file, how):
 
 
 def interrupted_folder(bench, name):
-    """A folder that a kill in the middle left; made once."""
+    """The folder of a run that was killed in the middle; made once."""
     with bench.lock:
         return interrupted_folder_alone(bench, name)
 
@@ -122,13 +122,13 @@ def interrupted(bench, name, file, how):
     shutil.copytree(interrupted_folder(bench, name), run)
     spoil(run / file, how, random.Random(f"{name} {file} {how}"))
     whole, wanted, _, _ = bench.undisturbed(name)
-    # Of a sweep's runs that have ended, as in finished().
+    # For the finished runs of a sweep, as in finished().
     ended = [folder.name for folder in run.iterdir() if (folder / ".ripstop/seal").exists()]
     code, _, err = bench.run(bench.command(name, run), trial.FASTER.get(name))
     past = tuple(f"{name}/checkpoint/" for name in ended)
     unlike = trial.differences(run, whole, lambda n: n.startswith(past)) if code == wanted else []
     wrong = judge("again", code, wanted, not unlike, err + " differ: " + ", ".join(unlike[:8]), file, run)
-    if not wrong and code != wanted and "--fresh" in err:  # the advice holds
+    if not wrong and code != wanted and "--fresh" in err:  # the advice is correct
         code, _, err = bench.run([*bench.command(name, run), "--fresh"], trial.FASTER.get(name))
         unlike = trial.differences(run, whole) if code == wanted else ["all"]
         if unlike:
@@ -138,7 +138,7 @@ def interrupted(bench, name, file, how):
 
 
 def files(folder):
-    """But for temporary ones, whose name is the process's."""
+    """Except temporary ones, whose name contains the process number."""
     return sorted(str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file() and not path.name.endswith(".tmp"))
 
 

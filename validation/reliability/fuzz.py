@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Fuzzes every reader under clang's libFuzzer with the harnesses of build-fuzz/, and counts what was executed.
+"""Fuzzes every reader under clang's libFuzzer with the harnesses of build-fuzz/, and counts the executions.
 
     make fuzz                         (or: fuzz.py --seconds 600 --jobs 2 case chute)
 
-The corpus of a reader stays in build-fuzz/corpus/<reader>, so that the next call goes on with it; a find lies beside it as
-find-<reader>-*. A call is a line of build-fuzz/runs.jsonl; their sum goes into docs/tables/fuzz.md. A find is tried again
-with every call and stays open until the reader takes it or says why not.
+The corpus of a reader remains in build-fuzz/corpus/<reader>, and the next call continues with it. A failing input is the file
+build-fuzz/find-<reader>-*. A call is a line of build-fuzz/runs.jsonl; docs/tables/fuzz.md has their sums. Every call repeats the
+failing inputs. They remain open until the reader accepts them or refuses them with a reason.
 """
 import argparse
 import collections
@@ -33,7 +33,7 @@ ENVIRONMENT = {**os.environ, "RIPSTOP_DATA": str(ROOT)}
 
 
 def corpus(reader):
-    """The folder, with the seeds as files whose names follow from their places: a corpus has no folders."""
+    """The folder of the corpus with the seeds. Their names contain their paths, because a corpus has no folders."""
     folder = BUILD / "corpus" / reader
     folder.mkdir(parents=True, exist_ok=True)
     for seed in map(pathlib.Path, filter(None, (PROGRAMS / f"{reader}.seeds").read_text().splitlines())):
@@ -60,7 +60,7 @@ def fuzz(reader, seconds):
 
 
 def open_finds(reader):
-    """Finds of this and earlier calls that still are some."""
+    """Inputs of this and earlier calls that still fail."""
     finds = sorted(BUILD.glob(f"find-{reader}-*"))
     return [find.name for find in finds
             if subprocess.run([PROGRAMS / f"fuzz_{reader}", *LIMITS, find], env=ENVIRONMENT, capture_output=True, check=False).returncode != 0]

@@ -1,22 +1,20 @@
 #!/usr/bin/env python3
-"""Mutation of the sources: does a test fail when the code says something else?
+"""Mutation of the sources: does a test fail when the code is changed?
 
     make mutants        (or: mutants.py --number 400 --jobs 2)
 
-Of all that the operators of sites.py make of src/ripstop's .cpp files, a sample: lines of a room in proportion to its
-lines, one mutation a line, picked by a hash of the line and not by its place, so that a change of one file leaves the
-sample of the others. All are compiled in at once, each behind a condition that an environment variable makes true, into
-build-mutants/; what does not compile is dropped. Every test runs once by itself and says which mutants it comes by; a
-mutant is then met by the tests that come by it, its own room's first, until one fails, or takes three times as long,
-twice, and does not so without it. Tests that take longer than --slowest seconds are left out, and Python's and the
-browser's.
+The operators of sites.py change the .cpp files of src/ripstop. A sample of these mutants has lines of each room in proportion to
+its size, with one mutant a line. A hash of the line selects them, so that a change of one file does not change the sample of
+the others. All are compiled together into build-mutants/, each behind a condition that an environment variable makes true; mutants
+that do not compile are dropped. Every test runs once by itself and records the mutants whose code it runs. A mutant is then tested
+by these tests, those of its room first, until one fails, or takes three times as long twice, and does not do so without it. Tests
+that take longer than --slowest seconds, and those in Python or a browser, are left out.
 
-The log, build-mutants/log.jsonl, has a line a verdict with the hash of the mutant's file; what stands in it is not run
-again, but for survivors with --again (after new tests). Whoever has read a survivor and found it equivalent (no input
-can tell), harmless (speed, text, a tie, a limit chosen at will) or a hole says so with the reason in judged.json. The
-table is docs/tables/mutants.md. --fresh 300 takes as many more, which no test was written for, meets them first and has a table
-of its own, mutants-fresh.md; where tests were written for the survivors of an earlier such slice, --after 900 takes them from
-behind the first 900 of the order.
+The log, build-mutants/log.jsonl, has a line for each verdict with the hash of the file. A logged mutant is not tested again, except
+survivors with --again (after new tests). A reviewed survivor is in judged.json with the reason why it is equivalent (no input shows
+it), harmless (speed, text, a tie, an arbitrary limit) or a hole. The table is docs/tables/mutants.md. --fresh 300 adds as many
+mutants for which no test was written, tests them first, and writes mutants-fresh.md. Where tests were written for the survivors
+of an earlier such sample, --after 900 begins after the first 900 of the order.
 """
 import argparse
 import collections
@@ -90,7 +88,7 @@ def sha(*texts):
 
 
 def room_of(path):
-    """src/ripstop/flow/cartesian/sheet.cpp is of the room cartesian; core/toml is core."""
+    """src/ripstop/flow/cartesian/sheet.cpp belongs to the room cartesian, core/toml to core."""
     parts = path.split("/")[2:-1]
     return parts[-1] if parts[-1] in ("cartesian", "openfoam") else parts[0]
 
@@ -129,7 +127,7 @@ def sample(number):
 
 
 def named():
-    """Mutants that were once asked for by name: [file, what stands there, what is put for it, which of several]."""
+    """Mutants requested by name: [file, original text, mutant, which of several]."""
     for path, old, new, *place in json.loads(NAMED.read_text()):
         text, at = (ROOT / "src/ripstop" / path).read_text(), -1
         for _ in range(place[0] if place else 1):
@@ -143,7 +141,7 @@ def named():
 
 
 def all_mutants(number):
-    """The sample and behind it those of named.json; of the sample without what those take up."""
+    """The sample without the mutants of named.json, followed by these."""
     asked = list(named())
     taken = [(n["path"], n["m"].start, n["m"].end) for n in asked]
     free = [m for m in sample(number) if all(m["path"] != p or m["m"].end <= a or b <= m["m"].start for p, a, b in taken)]
@@ -151,14 +149,14 @@ def all_mutants(number):
 
 
 def put(path, text):
-    """Written where it differs, so that only what changed is compiled."""
+    """Writes a file that differs, so that only changed files are compiled."""
     if not path.exists() or path.read_bytes() != text:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(text)
 
 
 def mutated(path, mutants, dropped):
-    """A source with its mutants, and what lines each takes in it."""
+    """A source with its mutants, and the lines of each."""
     text, made, lines, at = (ROOT / path).read_text(), '#include "ripstop_mutants.h"\n', {}, 0
     at_place = collections.defaultdict(list)
     for number, mutant in mutants:
@@ -168,7 +166,7 @@ def mutated(path, mutants, dropped):
         made += text[at:start]
         first = made.count("\n") + 1
         replaced = text[start:at_place[start][0][1].end]
-        for number, m in at_place[start]:  # several named ones may stand at one place
+        for number, m in at_place[start]:  # several named ones may be at one place
             both = m.both.replace("ON", f"::ripstop_mutants::on({number})", 1)
             replaced = both if replaced == m.text else both[:both.rindex(m.text)] + replaced + both[both.rindex(m.text) + len(m.text):]
         made += replaced
@@ -193,8 +191,8 @@ def lay_out(mutants, dropped):
             by_place = sorted(by_file[path], key=lambda n: n[1]["m"].start)
             source, places[path] = mutated(path, by_place, dropped)
             text = source.encode()
-        if path == "CMakeLists.txt":  # last, so that it counts: mutants warn, and kernels take minutes at more
-            # Without those that have mutants the others would be joined in groups that no other build has, where names clash.
+        if path == "CMakeLists.txt":  # the last option counts: mutants cause warnings, and kernels take minutes at higher levels
+            # Without the files that have mutants, unity builds would combine the others in new groups, where names may clash.
             text += b"\nset_target_properties(ripstop_text PROPERTIES UNITY_BUILD OFF)"
             text += "".join(f'\nset_property(SOURCE {p} APPEND PROPERTY COMPILE_OPTIONS "-w;-O1")' for p in sorted(by_file)).encode() + b"\n"
         put(TREE / path, text)
@@ -208,7 +206,7 @@ def lay_out(mutants, dropped):
 
 
 def compile_all(mutants, jobs):
-    """Builds; gives the numbers of what does not compile."""
+    """Builds, and returns the numbers of mutants that do not compile."""
     note = WORK / "dropped.json"
     key = sha(*(m["name"] + m["of"] for m in mutants))
     dropped = set()
@@ -258,7 +256,7 @@ class Bench:
         self.reached.write_bytes(bytes(65536))
 
     def run(self, room, tests, seconds, mutant=None):
-        """(passed, tests that failed or why, seconds); without a mutant also those that it came by."""
+        """(passed, failed tests or the reason, seconds); without a mutant also the mutants whose code it ran."""
         shutil.rmtree(self.place, ignore_errors=True)
         self.place.mkdir(parents=True)
         environment = dict(os.environ, TMPDIR=str(self.place), TEST_TMPDIR=str(self.place))
@@ -302,7 +300,7 @@ def all_tests():
 
 
 def side_by_side(jobs, work, what):
-    """`what` of everything in `work`, by so many benches at a time."""
+    """Applies `what` to each element of `work`, with this many benches at a time."""
     benches = queue.Queue()
     for number in range(jobs):
         benches.put(Bench(number))
@@ -320,11 +318,11 @@ def side_by_side(jobs, work, what):
 
 
 def reach(jobs, key, slowest, which):
-    """What every test comes by, by a run of it without a mutant; of those that are named by `which` or known already."""
+    """The mutants whose code each test runs, by a run without a mutant, for tests named by `which` or already known."""
     sources = {room: {p.name: p.read_text() for p in sorted(folder.rglob("*.[ch]*"))} for room, folder in test_rooms().items()}
 
     def made_of(room, test):
-        """The hash of the mutants and of what the test is made of: its file and the room's headers."""
+        """The hash of the mutants and of the sources of the test: its file and the headers of the room."""
         suite, name = test.split(".")[0].split("/")[-1], test.split(".")[1].split("/")[0]
         own = [n for n, text in sources[room].items() if n.endswith(".cpp") and suite in text and name in text] or list(sources[room])
         return sha(key, *(text for n, text in sources[room].items() if n in own or n.endswith(".h")))
@@ -351,7 +349,7 @@ def reach(jobs, key, slowest, which):
 
 
 def batches(mutant, number, tests, most, passed):
-    """Tests that come by a mutant and have not passed with it, a program at a time: own room first, the quick ones together."""
+    """Tests that run a mutant and have not passed with it, by program: those of its room first, quick ones together."""
     by_room, left_out = collections.defaultdict(list), 0
     for name, entry in tests.items():
         if number in entry["by"] and passed.get(name) != entry["key"]:
@@ -436,7 +434,7 @@ def main():
     log, left_out = read_log(), set()
 
     def pick(dropped):
-        """With --skip and --count: the numbers of all other fresh ones."""
+        """With --skip and --count: the numbers of the other fresh ones."""
         fresh = sorted((n for n, m in enumerate(mutants) if m["name"] not in asked and n not in dropped), key=lambda n: sha(mutants[n]["name"]))
         return set(fresh) - set(fresh[options.skip:][:options.count or None])
 

@@ -1,4 +1,4 @@
-"""The tables of mutants.py: the sample with what was asked for by name, and fresh mutants, which no test was written for."""
+"""The tables of mutants.py: the sample with the named mutants, and fresh mutants, for which no test was written."""
 import collections
 import json
 import pathlib
@@ -6,17 +6,17 @@ import pathlib
 import tables
 
 NUMBER = 400  # mutants of the sample
-MOST = 300  # seconds of tests that a mutant is met by
-SLOWEST = 60  # seconds: a test that takes longer is left out
+MOST = 300  # longest time of the tests of a mutant [s]
+SLOWEST = 60  # a test that takes longer is left out [s]
 
 
 def judged():
-    """What a reader says of survivors: {name: [equivalent, harmless or hole, why]}."""
+    """Reviews of survivors: {name: [equivalent, harmless or hole, reason]}."""
     return json.loads((pathlib.Path(__file__).parent / "judged.json").read_text())
 
 
 def write_one(name, title, mutants, dropped, log, command, of_what):
-    """Of (number, mutant); where less than half of them were met, the table stays as it is."""
+    """Table of pairs (number, mutant); it is not changed where less than half of them were tested."""
     judgements, rows, total, survivors, days, unmet = judged(), {}, collections.Counter(), [], set(), 0
     for number, mutant in mutants:
         count = rows.setdefault(mutant["room"], collections.Counter())

@@ -1,4 +1,4 @@
-"""The trials of torture.py with more than one process, with a clock that goes back, and with stand-ins for OpenFOAM."""
+"""The trials of torture.py with several processes, with a clock that moves backward, and with replacements of OpenFOAM."""
 import os
 import shutil
 import signal
@@ -12,7 +12,7 @@ SOLVER = "rhoPorousSimpleFoam"
 REAL = shutil.which(SOLVER)
 FOAM_CODE = 6
 
-# What stands in for the solver from its n-th run on; it still knows its version. {real} is the solver, {n} counts its runs.
+# Replacements of the solver from its n-th run on, which still print its version. {real} is the solver, {n} counts its runs.
 STAND_INS = {
     "killed": "kill -9 $$",
     "killed while it writes": '"{real}" "$@" & sleep 0.3; kill -9 $!; wait $!; kill -9 $$',
@@ -27,7 +27,7 @@ STAND_INS = {
 
 
 def stand_in(folder, kind, first):
-    """A folder to put first in PATH."""
+    """A folder for the beginning of PATH."""
     folder.mkdir()
     script = folder / SOLVER
     counter = folder / "runs"
@@ -42,7 +42,7 @@ def stand_in(folder, kind, first):
 
 
 def openfoam_fails(bench, kind, first):
-    """The run says so, and the same command with the real program gives the undisturbed folder."""
+    """The run reports it, and the same command with the real program gives the undisturbed folder."""
     root = bench.folder("trial")
     whole, wanted, _, _ = bench.undisturbed("openfoam")
     code, _, err = bench.run(bench.command("openfoam", root / "out"), **stand_in(root / "bin", kind, first))
@@ -55,7 +55,7 @@ def openfoam_fails(bench, kind, first):
 
 
 def openfoam_hangs(bench, stop):
-    """Stopped while OpenFOAM hangs: nothing that it started is left, and the same command goes on."""
+    """Stopped while OpenFOAM hangs: all its child processes end, and the same command continues."""
     root = bench.folder("trial")
     whole, wanted, _, _ = bench.undisturbed("openfoam")
     mark = root / "hangs"
@@ -72,7 +72,7 @@ def openfoam_hangs(bench, stop):
         os.killpg(child.pid, signal.SIGKILL)
         return {"ok": False, "said": f"still running {trial.LIMIT_S} s after {stop.name}"}
     process = int(mark.read_text())
-    for _ in range(400):  # the group ends within its grace of five seconds
+    for _ in range(400):  # the process group ends within five seconds
         if not alive(process):
             break
         time.sleep(0.02)
@@ -93,7 +93,7 @@ def alive(process):
 
 
 def two_at_once(bench, name, after):
-    """One does the work; the other shows it, or says who holds the folder."""
+    """One process computes; the other displays the run, or reports which process uses the folder."""
     root = bench.folder("trial")
     whole, wanted, seconds, _ = bench.undisturbed(name)
     first = bench.start(bench.command(name, root / "out"), trial.FASTER.get(name, {}))
@@ -111,7 +111,7 @@ def two_at_once(bench, name, after):
 
 
 def clock_goes_back(bench, name, seconds, share):
-    """The whole run, killed in the middle and taken up again a day earlier every time that it looks."""
+    """The run is killed in the middle and continued with a clock that moves back by 24 hours at each reading."""
     root = bench.folder("trial")
     whole, wanted, lasts, calls = bench.undisturbed(name)
     back = {**trial.FASTER.get(name, {}), "TORTURE_BACK": str(seconds)}

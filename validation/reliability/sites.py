@@ -1,10 +1,10 @@
-"""Where a C++ source can be changed, and into what: the operators of the mutation campaign (mutants.py).
+"""The operators of the mutation campaign (mutants.py): places of a C++ source and their changes.
 
-Works on tokens of sources that clang-format has laid out: a binary operator has blanks on both sides, `<` of a template
-has none. What it takes for an expression and is none does not compile, and is dropped by the campaign.
+They use tokens of sources formatted by clang-format: a binary operator has blanks on both sides, `<` of a template has none. A text
+that is wrongly regarded as an expression does not compile, and the campaign drops it.
 
-Every mutation is text in place of other text that holds both the original and the mutant, chosen as the program starts
-by the mutant's number: `on(7)` is true in mutant 7 only.
+Every mutation replaces a text by another one that contains both the original and the mutant. The number of the mutant, given at the
+start of the program, selects one: `on(7)` is true only in mutant 7.
 """
 import re
 from dataclasses import dataclass
@@ -46,9 +46,9 @@ class Mutation:
     start: int
     end: int
     line: int
-    text: str      # what it replaces
-    mutant: str    # what it replaces it by
-    both: str      # what is compiled, with ON for on(number)
+    text: str      # the original text
+    mutant: str    # the text of the mutant
+    both: str      # the compiled text, with ON for on(number)
 
 
 def tokens_of(text):
@@ -117,7 +117,7 @@ class Source:
         return self.tokens[k + 1:i]
 
     def find_functions(self):
-        """For every token whether it stands in the body of a function that is not constexpr."""
+        """For every token whether it is in the body of a function that is not constexpr."""
         inside, until = [False] * len(self.tokens), -1
         for i, token in enumerate(self.tokens):
             if i <= until:
@@ -168,7 +168,7 @@ class Source:
         return self.text[self.tokens[first].start:self.tokens[last].end]
 
     def in_message(self, i):
-        """In a text for people, or in what only compilers read."""
+        """In a text for people, or in code that only compilers use."""
         k = self.tokens[i].inside
         while k >= 0:
             if self.tokens[k].text == "<" or (self.tokens[k].text in "({" and k > 0 and self.tokens[k - 1].text in MESSAGES):
@@ -214,7 +214,7 @@ class Source:
         return k < end
 
     def mutations(self):
-        """All that the operators make of this source."""
+        """All mutants of this source."""
         for i, token in enumerate(self.tokens):
             if not self.inside_function[i]:
                 continue

@@ -1,20 +1,20 @@
 #!/usr/bin/env python3
-"""Kills, full disks, damage and lies: what a run folder promises, tried over and over.
+"""Tests the guarantees of run folders under kills, full disks, damaged files and false programs.
 
     make torture                      (or: torture.py --ripstop build/bin/ripstop --stage kill --count 100)
 
 Stages, each a list of trials in an order that a fixed seed gives, so that trial k is always the same:
 
-    kill    SIGKILL at a random moment, and at every call that writes; the same command again must leave the folder of an
-            undisturbed run, byte for byte but for times of day and wall-clock figures
+    kill    SIGKILL at a random moment, and at every call that writes; the same command again must give the folder of an
+            undisturbed run, byte for byte except times of day and wall times
     fail    every call that writes fails once (ENOSPC, EIO, half a write, half a write and then no room): exit code 7 and a
-            message that names the file; the same command again must leave the undisturbed folder
+            message that names the file; the same command again must give the undisturbed folder
     damage  every file of a finished and of an interrupted folder cut in half, with one byte flipped, and removed: each
-            command that reads the folder must say so or give what it gives of the undisturbed folder
-    others  two processes in one folder, the time of day going backwards, OpenFOAM replaced by programs that fail
+            command that reads the folder must report it or give the result of the undisturbed folder
+    others  two processes in one folder, a clock that moves backward, programs instead of OpenFOAM that fail
 
-Finished trials are lines of trials.jsonl in --work; the same command goes on with the rest, and tries again what failed when
-the program is another one. The table goes into docs/tables/torture.md.
+Finished trials are lines of trials.jsonl in --work; the same command continues with the others, and repeats failed
+trials when the program has changed. The table is docs/tables/torture.md.
 """
 import argparse
 import collections
@@ -38,14 +38,14 @@ import trial  # pylint: disable=wrong-import-position
 SEED = 21
 TABLE = trial.ROOT / "docs/tables/torture.md"
 RANDOM_KILLS = {"steady": 50, "inflate": 50, "sweep": 25, "sweep-2": 25, "damping": 20, "porosity": 15, "openfoam": 6}  # trials
-KILLED_AT_WRITES = {"steady": 1, "inflate": 1, "sweep": 3, "damping": 1, "porosity": 3, "openfoam": 12}  # every so many-th
+KILLED_AT_WRITES = {"steady": 1, "inflate": 1, "sweep": 3, "damping": 1, "porosity": 3, "openfoam": 12}  # one of this many
 FAILING = {"steady": 1, "inflate": 1, "sweep": 1, "damping": 1, "porosity": 1, "openfoam": 12, "fabric": 1, "coupon": 1, "fit": 1}
-FAILING_IN_RUNS = 12  # in the folders of a sweep's runs: their calls are those of `steady`, all of which are tried,
-REMOVALS = {"unlink", "unlinkat", "remove", "rmdir"}  # but for these, which are the sweep's own
+FAILING_IN_RUNS = 12  # in the folders of a sweep's runs: their calls are those of `steady`, which are all tried,
+REMOVALS = {"unlink", "unlinkat", "remove", "rmdir"}  # except these, which belong to the sweep
 
 
 def resumed(bench, name, folder, killed):
-    """The same command again, then its folder beside the undisturbed one."""
+    """Repeats the command and compares its folder with the undisturbed one."""
     whole, wanted, _, _ = bench.undisturbed(name)
     code, out, err = bench.run(bench.command(name, folder / "out"), trial.FASTER.get(name))
     said = trial.last_line(err) or trial.last_line(out)
@@ -62,7 +62,7 @@ def resumed(bench, name, folder, killed):
 
 
 def killed_at_random(bench, name, number):
-    """Up to ten times one after the other, each time within what the whole run takes."""
+    """Up to ten kills in succession, each within the duration of the whole run."""
     rng = random.Random(f"{SEED} {name} {number}")
     seconds = bench.undisturbed(name)[2]
     folder, kills, moments = bench.folder("trial"), 0, []
@@ -80,7 +80,7 @@ def killed_at_random(bench, name, number):
 
 
 def killed_at(bench, name, number):
-    """At a write, and up to three times more at writes of what goes on from there."""
+    """At a write, and up to three times at writes of the continued run."""
     rng = random.Random(f"{SEED} {name} {number} at write")
     folder, kills, writes = bench.folder("trial"), 0, [number]
     while True:
@@ -96,7 +96,7 @@ def killed_at(bench, name, number):
 
 
 def failing_at(bench, name, number, reason):
-    """felt: the command failed; else what failed was in nobody's way."""
+    """felt: the command failed; otherwise the failed call had no effect."""
     folder = bench.folder("trial")
     whole, wanted, _, calls = bench.undisturbed(name)
     kind, path = calls[number - 1]
@@ -132,7 +132,7 @@ def kill_trials(bench, rng):
 
 
 def fail_trials(bench, rng):
-    """Every call for one reason each, then every call for the next: what --count leaves are reasons, not calls."""
+    """Every call fails for one reason, then every call for the next one: --count limits the reasons, not the calls."""
     rounds = [[] for _ in range(4)]
     for name, every in FAILING.items():
         root, _, _, calls = bench.undisturbed(name)
@@ -242,7 +242,7 @@ def main():
     parser.add_argument("--table", type=pathlib.Path, default=TABLE)
     options = parser.parse_args()
     options.commit = subprocess.run(["git", "describe", "--always", "--dirty"], cwd=trial.ROOT, capture_output=True, text=True, check=False).stdout.strip()
-    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs ignore it, and so would what they start
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # background jobs of a shell ignore it, and so would their child processes
     bench, options.listed = trial.Bench(options.ripstop, options.work), collections.Counter()
     log = trial.Log(options.work / "trials.jsonl", bench.hash)
     try:

@@ -1,4 +1,4 @@
-"""What the trials of torture.py have in common: tiny cases, a run of the program with a fault in it, and folders compared."""
+"""Common parts of the trials of torture.py: tiny cases, a run of the program with a fault, and the comparison of folders."""
 import hashlib
 import json
 import os
@@ -11,7 +11,7 @@ import threading
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-LIMIT_S = 300  # of one run of the program: it takes a few seconds
+LIMIT_S = 300  # of one run of the program, which takes a few seconds
 
 CASE = """title = "Torture"
 [parachute]
@@ -60,15 +60,15 @@ COMMANDS = {
     "coupon": "coupon f-111 --points 2 --cells 4 --threads 1",
     "fit": "fit {bench} --no-coupons --threads 1",
 }
-# Two threads take files in any order, so that the n-th write is not always the same one.
+# Two threads write files in any order, so that the n-th write is not always the same one.
 IN_ORDER = [name for name in COMMANDS if name != "sweep-2"]
-# Of an opening every frame is to be a checkpoint: its ten seconds pass in a millisecond.
+# Every frame of an opening shall be a checkpoint: its ten seconds pass in a millisecond.
 FASTER = {"inflate": {"TORTURE_FASTER": "10000"}}
 NOT_CONVERGED = 4  # the exit code of an opening as short as this one
 
 
 class Bench:
-    """Where trials work, and with what."""
+    """Folder and program of the trials."""
 
     def __init__(self, program, work):
         self.program, self.work = program.resolve(), work.resolve()
@@ -81,10 +81,10 @@ class Bench:
         subprocess.run(["cc", "-shared", "-fPIC", "-O1", "-o", self.preload, source, "-ldl"], check=True)
         own = [source, *sorted(source.parent.glob("*.py"))]
         self.hash = hashlib.sha256(b"".join(path.read_bytes() for path in [self.program, *own])).hexdigest()[:12]
-        self.known, self.lock = {}, threading.RLock()  # what is made once, by whichever lane needs it first
+        self.known, self.lock = {}, threading.RLock()  # made once, by the first lane that needs it
 
     def folder(self, name):
-        """A new, empty place; "trial" is another one in every lane."""
+        """A new, empty folder; "trial" differs between lanes."""
         path = self.work / (f"{name}-{threading.current_thread().name}" if name == "trial" else name)
         shutil.rmtree(path, ignore_errors=True)
         path.mkdir(parents=True)
@@ -117,7 +117,7 @@ class Bench:
         return child.returncode, out, err
 
     def undisturbed(self, name):
-        """(folder, exit code, seconds, counted calls) of the run that nothing happened to; made once."""
+        """(folder, exit code, seconds, counted calls) of the undisturbed run; made once."""
         with self.lock:
             return self.undisturbed_alone(name)
 
@@ -135,8 +135,8 @@ class Bench:
         return self.known[name]
 
 
-# Wall-clock figures, the time of day, and what is of them: hashes, random words made of them, the process's number. What OpenFOAM
-# tells of its iterations in its own case begins anew with every start of it.
+# Wall times, the time of day, and values derived from them: hashes, random words, the process number. OpenFOAM repeats its
+# record of iterations in its own case at every start.
 IGNORED = re.compile(r"^(.*/)?\.ripstop/(lock|seal|started)$|^(.*/)?checkpoint/(odd|even)/state$|^wall_time\.(svg|png)$|^(.*/)?flow/(log\.|postProcessing/)|^calls$")
 TIMES = [(re.compile(rb'"(wall_time_s|seconds)": [-+0-9.e]+'), rb'"\1": 0'), (re.compile(rb'"started": "[^"]*"'), b'"started": ""')]
 TIMES_OF_REPORT = [(re.compile(rb'("text":"wall time","unit":"s","value":)[-+0-9.e]+'), rb"\1"), (re.compile(rb'\["wall time","s",[^\]]*\]'), b"[]"),
@@ -163,7 +163,7 @@ def contents(folder):
         if not path.is_file() or IGNORED.match(name):
             continue
         text = path.read_bytes()
-        if name.endswith(".ripstop/files"):  # in whatever order
+        if name.endswith(".ripstop/files"):  # in any order
             text = b"\n".join(sorted(text.splitlines()))
         if name.endswith(".csv"):
             text = columns_without_time(text)
@@ -201,7 +201,7 @@ class Log:
                     pass
 
     def wants(self, trial):
-        """A trial that failed is worth another try with another program."""
+        """A failed trial is repeated with another program."""
         row = self.done.get(trial)
         return row is None or (not row["ok"] and row["program"] != self.program)
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Writes the table of Stratos IV's steady runs, docs/tables/stratos-iv.md.
 
-Usage: table.py RUNS. RUNS holds the run folders <engine>-<speed> that `make validate` leaves; those that do
-not exist are left out. Every number comes from their result.json and run.json.
+Usage: table.py RUNS. RUNS contains the run folders <engine>-<speed> of `make validate`; missing ones are
+left out. Every number comes from their result.json and run.json.
 """
 import json
 import pathlib

@@ -102,7 +102,7 @@ def main():
     root = (options.root or CACHE / f"debian{options.release}").resolve()
     make_root(root, RELEASES[options.release], options.mirror)
     clone_tree(root)
-    if options.ccache:  # also of what includes precompiled headers
+    if options.ccache:  # also for sources that include precompiled headers
         ENVIRONMENT["CCACHE_SLOPPINESS"] = "pch_defines,time_macros,include_file_mtime,include_file_ctime"
 
     run_in(root, "apt-get update -q && apt-get install -y -q make git" + (" ccache" if options.ccache else ""), network=True)
