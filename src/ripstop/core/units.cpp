@@ -10,7 +10,7 @@ namespace {
 
 struct KnownUnit {
   double factor;
-  std::vector<const char*> names;  // the first is the one that is printed
+  std::vector<std::string_view> names;  // the first is the one that is printed
 };
 using Units = std::vector<KnownUnit>;
 
@@ -81,15 +81,15 @@ std::optional<Unit> find_plain_unit(Dimension dimension, std::string_view wanted
   const KnownUnit* found = nullptr;
   bool several = false;
   for (const KnownUnit& known : units_of(dimension))
-    for (const char* name : known.names) {
-      if (wanted == name) return Unit{known.names.front(), known.factor};
+    for (const std::string_view name : known.names) {
+      if (wanted == name) return Unit{std::string(known.names.front()), known.factor};
       // "MM", "n", "LBF": machines shout. Where this leaves a choice (MN, mN) only the exact spelling is known.
       if (!same_letters(wanted, name)) continue;
       several = several || (found && found != &known);
       found = &known;
     }
   if (!found || several) return {};
-  return Unit{found->names.front(), found->factor};
+  return Unit{std::string(found->names.front()), found->factor};
 }
 
 bool is_plain_foreign_unit(std::string_view plain) {
@@ -117,8 +117,12 @@ std::string plain_unit(std::string text) {
                                                                                      {" /", "/"},
                                                                                      {"/ ", "/"},
                                                                                      {"**", ""}}};
+  const bool plain =
+      text.find(" per ") == std::string::npos && std::all_of(text.begin(), text.end(), [](char c) {
+        return static_cast<unsigned char>(c) < 0x80 && c != '^' && c != '_' && c != '/' && c != '*';
+      });
   for (const auto& [from, to] : spellings)
-    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+    for (std::size_t at = 0; !plain && (at = text.find(from, at)) != std::string::npos; at += to.size())
       text.replace(at, from.size(), to);
   const std::size_t begin = text.find_first_not_of(" \t");
   if (begin == std::string::npos) return "";

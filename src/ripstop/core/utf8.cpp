@@ -21,6 +21,10 @@ Character first_character(std::string_view text) {
 
 bool is_utf8(std::string_view text) {
   while (!text.empty()) {
+    if (static_cast<unsigned char>(text.front()) < 0x80) {
+      text.remove_prefix(1);
+      continue;
+    }
     const Character c = first_character(text);
     if (!c.whole) return false;
     text.remove_prefix(c.length);

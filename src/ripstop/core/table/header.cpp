@@ -32,16 +32,6 @@ bool has_letters(const std::string& cell) {
   });
 }
 
-bool known_or_named(const std::string& cell, const Format& format) {
-  if (format.columns.empty() && !has_letters(cell)) return false;
-  const Heading heading = read_heading(cell);
-  for (const Quantity meaning : heading.meanings)
-    if (meaning != Q::specimen) return true;
-  return std::any_of(format.columns.begin(), format.columns.end(), [&](const ColumnChoice& choice) {
-    return !choice.heading.empty() && closeness(heading, choice.heading) > 0;
-  });
-}
-
 /// Of the user's choices: the column of each heading that was named.
 std::map<std::size_t, const ColumnChoice*> named_columns(const std::vector<Heading>& headings, int line,
                                                          const Format& format,
@@ -247,27 +237,55 @@ void set_side_by_side(Block& block, const Row* above) {
 
 }  // namespace
 
-std::vector<std::size_t> known_places(const Row& row, const Format& format) {
+KnownHeadings::KnownHeadings(const Format& format) : format_(format) {
+  for (const ColumnChoice& choice : format.columns)
+    if (!choice.heading.empty()) named_.push_back(words_of(choice.heading));
+}
+
+bool KnownHeadings::read(const std::string& cell) const {
+  const std::string words = words_of(cell);
+  const bool may_be_named = std::any_of(named_.begin(), named_.end(), [&](std::string_view named) {
+    return named.empty() || words.find(named.substr(0, named.find(' '))) != std::string::npos;
+  });
+  if (!may_be_named && !may_have_meaning(words)) return false;
+  const Heading heading = read_heading(cell);
+  for (const Quantity meaning : heading.meanings)
+    if (meaning != Q::specimen) return true;
+  return std::any_of(format_.columns.begin(), format_.columns.end(), [&](const ColumnChoice& choice) {
+    return !choice.heading.empty() && closeness(heading, choice.heading) > 0;
+  });
+}
+
+bool KnownHeadings::contains(const std::string& cell) {
+  constexpr std::size_t most_cells = 10000;
+  if (named_.empty() && !has_letters(cell)) return false;
+  if (const auto found = cells_.find(cell); found != cells_.end()) return found->second;
+  const bool known = read(cell);
+  if (cells_.size() < most_cells) cells_.emplace(cell, known);
+  return known;
+}
+
+std::vector<std::size_t> KnownHeadings::places(const Row& row) {
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < row.cells.size(); ++i)
-    if (!row.cells[i].empty() && known_or_named(row.cells[i], format)) places.push_back(i);
+    if (!row.cells[i].empty() && contains(row.cells[i])) places.push_back(i);
   return places;
 }
 
-std::size_t recognised(const Row& row, const Format& format) {
+std::size_t KnownHeadings::count(const Row& row) {
   const bool values = std::any_of(row.cells.begin(), row.cells.end(), is_value);
-  return values ? 0 : known_places(row, format).size();
+  return values ? 0 : places(row).size();
 }
 
-bool find_header(const std::vector<Row>& rows, std::size_t from, const Format& format,
+bool find_header(const std::vector<Row>& rows, std::size_t from, KnownHeadings& known,
                  const HeaderSearch& search, Header& found) {
   std::vector<std::size_t> places;
   std::size_t below = 0;
   for (std::size_t r = from; r < rows.size(); ++r) {
     const Row& row = rows[r];
     if ((row.comment && !search.comments) || row.blank()) continue;
-    if (const std::size_t count = recognised(row, format); count >= search.fewest) {
-      places = known_places(row, format);
+    if (const std::size_t count = known.count(row); count >= search.fewest) {
+      places = known.places(row);
       below = 0;
       found = {r, 0, count, false};
       continue;

@@ -33,7 +33,7 @@ constexpr std::array<QuantityName, 11> quantities{{{Q::force, "force", Dimension
 
 /// Folded words of headings. `weak` words have other meanings in one of the languages: "last" is a load in German.
 struct Word {
-  const char* text;
+  std::string_view text;
   Quantity quantity;
   Quantity or_else = Q::other;
   bool weak = false;
@@ -189,13 +189,19 @@ constexpr std::string_view vetoes[]{
     "vorkraft", "coeficiente", "coefficiente", "temperatuur", "uncertainty"};
 
 struct Symbol {
-  const char* text;
+  std::string_view text;
   Quantity quantity;
 };
 constexpr Symbol symbols[]{{"f", Q::force},   {"s", Q::extension},    {"t", Q::time},
                            {"ε", Q::strain},  {"σ", Q::stress},       {"h", Q::altitude},
                            {"v", Q::speed},   {"a", Q::acceleration}, {"p", Q::pressure},
                            {"ρ", Q::density}, {"rho", Q::density}};
+
+/// "force1", "probe2"
+std::string_view without_number(std::string_view token) {
+  while (token.size() > 1 && token.back() >= '0' && token.back() <= '9') token.remove_suffix(1);
+  return token;
+}
 
 std::vector<std::string> tokens_of(const std::string& text) {
   std::vector<std::string> tokens(1);
@@ -205,8 +211,7 @@ std::vector<std::string> tokens_of(const std::string& text) {
     else
       tokens.back() += c;
   }
-  for (std::string& token : tokens)  // "Force1", "Probe2"
-    while (token.size() > 1 && token.back() >= '0' && token.back() <= '9') token.pop_back();
+  for (std::string& token : tokens) token.resize(without_number(token).size());
   return tokens;
 }
 
@@ -248,6 +253,10 @@ constexpr std::string_view last_parts[]{"widerstand",
                                         "pruefling",
                                         "proefstuk"};
 
+bool ends_with_part(std::string_view token, std::string_view part) {
+  return token.size() >= part.size() + 2 && token.back() == part.back() && token.ends_with(part);
+}
+
 /// The listed words by their text.
 const std::map<std::string_view, std::size_t>& places_of_words() {
   static const std::map<std::string_view, std::size_t> places = [] {
@@ -267,7 +276,7 @@ void add_words(std::set<std::size_t>& found, std::string_view token) {
   add(token);
   if (token.ends_with('s')) add(token.substr(0, token.size() - 1));
   for (const std::string_view part : last_parts)
-    if (token.size() >= part.size() + 2 && token.ends_with(part)) add(part);
+    if (ends_with_part(token, part)) add(part);
 }
 
 /// Meanings of a name's words, in the order of the list above, which is that of precedence: drag force is a drag.
@@ -302,8 +311,9 @@ struct Bracketed {
 std::vector<Bracketed> bracketed(const std::string& text) {
   std::vector<Bracketed> all;
   for (std::size_t i = 0; i < text.size(); ++i) {
-    const std::size_t kind = std::string_view("([{<").find(text[i]);
-    if (kind == std::string_view::npos) continue;
+    const char c = text[i];
+    if (c != '(' && c != '[' && c != '{' && c != '<') continue;
+    const std::size_t kind = std::string_view("([{<").find(c);
     const std::size_t end = text.find(std::string_view(")]}>")[kind], i);
     if (end == std::string::npos) continue;
     all.push_back({i, end + 1, trimmed(std::string_view(text).substr(i + 1, end - i - 1))});
@@ -347,6 +357,21 @@ void take_trailing_unit(Heading& heading) {
 
 }  // namespace
 
+bool may_have_meaning(std::string_view words) {
+  const auto is_word = [](std::string_view token) { return places_of_words().contains(token); };
+  while (!words.empty()) {
+    std::string_view token = words.substr(0, words.find(' '));
+    words.remove_prefix(std::min(token.size() + 1, words.size()));
+    token = without_number(token);
+    if (is_word(token) || (token.ends_with('s') && is_word(token.substr(0, token.size() - 1)))) return true;
+    for (const Symbol& symbol : symbols)
+      if (token == symbol.text) return true;
+    for (const std::string_view part : last_parts)
+      if (ends_with_part(token, part)) return true;
+  }
+  return false;
+}
+
 std::string name_of(Quantity quantity) {
   for (const QuantityName& known : quantities)
     if (known.quantity == quantity) return known.name;
@@ -377,6 +402,7 @@ std::string bare_unit(const std::string& text) {
 }
 
 ClockForm clock_form(const std::string& unit) {
+  if (unit.find(':') == std::string::npos) return ClockForm::none;
   std::string letters;
   for (const char c : folded(unit))
     if (c == ':' || (c >= 'a' && c <= 'z')) letters += c;

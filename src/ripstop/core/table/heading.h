@@ -46,6 +46,8 @@ struct Heading {
 };
 
 Heading read_heading(const std::string& text);
+/// False: a heading with these words (words_of) has no meaning. Fast, for all the cells that are no headings.
+bool may_have_meaning(std::string_view words);
 /// The text of a unit without its parentheses or brackets.
 std::string bare_unit(const std::string& text);
 ClockForm clock_form(const std::string& unit);

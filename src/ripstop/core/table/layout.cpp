@@ -41,21 +41,21 @@ Cells cells_of(const Row& row, const Block& block) {
 /// Takes rows into blocks from one header to the next.
 class Reader {
  public:
-  Reader(const std::vector<Row>& rows, const Format& format, const std::filesystem::path& file)
-      : rows_(rows), format_(format), file_(file) {}
+  Reader(const std::vector<Row>& rows, KnownHeadings& known, const std::filesystem::path& file)
+      : rows_(rows), known_(known), format_(known.format()), file_(file) {}
 
   Layout read() {
     HeaderSearch search;
     Header header;
-    if (!find_header(rows_, 0, format_, search, header) &&
-        !find_header(rows_, 0, format_, search = {2, true}, header) &&
-        !find_header(rows_, 0, format_, search = {1, false}, header))
+    if (!find_header(rows_, 0, known_, search, header) &&
+        !find_header(rows_, 0, known_, search = {2, true}, header) &&
+        !find_header(rows_, 0, known_, search = {1, false}, header))
       refuse_without_header();
     std::size_t from = 0;
     do {
       start(make_block(rows_, header, format_, file_, layout_.notes), from, header);
       from = take_rows(header.data);
-    } while (from < rows_.size() && find_header(rows_, from, format_, search, header));
+    } while (from < rows_.size() && find_header(rows_, from, known_, search, header));
     if (std::all_of(layout_.blocks.begin(), layout_.blocks.end(),
                     [](const Block& block) { return block.columns.empty(); }) &&
         format_.wanted.empty())
@@ -98,7 +98,7 @@ class Reader {
         continue;
       }
       const Cells cells = cells_of(row, block());
-      if (recognised(row, format_) >= 2) return std::min(text, r);
+      if (known_.count(row) >= 2) return std::min(text, r);
       const bool numbers = cells.values > 0 && !(loose && cells.texts > 0 && header_ahead(r));
       if (!numbers) {
         if (cells.texts == 0 && cells.values == 0) continue;  // only in columns that are not used
@@ -121,20 +121,20 @@ class Reader {
   }
 
   /// Whether these rows lead to another header.
-  bool header_ahead(std::size_t r) const {
+  bool header_ahead(std::size_t r) {
     const std::size_t end = std::min(rows_.size(), r + most_preamble);
     for (; r < end; ++r)
-      if (!rows_[r].comment && recognised(rows_[r], format_) >= 2) return true;
+      if (!rows_[r].comment && known_.count(rows_[r]) >= 2) return true;
     return false;
   }
 
-  [[noreturn]] void refuse_without_header() const {
+  [[noreturn]] void refuse_without_header() {
     const Row *last_text = nullptr, *header = nullptr;
     for (const Row& row : rows_) {
       if (row.blank() || row.comment) continue;
       const auto values = std::count_if(row.cells.begin(), row.cells.end(), is_value);
       if (values == 0) {
-        if (recognised(row, format_) >= 2) header = &row;
+        if (known_.count(row) >= 2) header = &row;
         last_text = &row;
         continue;
       }
@@ -155,6 +155,7 @@ class Reader {
   }
 
   const std::vector<Row>& rows_;
+  KnownHeadings& known_;
   const Format& format_;
   const std::filesystem::path& file_;
   Layout layout_;
@@ -194,8 +195,8 @@ bool is_marker(const Row& row) {
   return known && only_specimen && filled <= 2 && numbered && std::count(name.begin(), name.end(), ' ') <= 2;
 }
 
-Layout find_layout(const std::vector<Row>& rows, const Format& format, const std::filesystem::path& file) {
-  return Reader(rows, format, file).read();
+Layout find_layout(const std::vector<Row>& rows, KnownHeadings& known, const std::filesystem::path& file) {
+  return Reader(rows, known, file).read();
 }
 
 }  // namespace ripstop::table

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "ripstop/core/table/rows.h"
@@ -29,19 +30,35 @@ struct Layout {
 /// "file:7: reason"; without the line where it is 0.
 [[noreturn]] void refuse(const std::filesystem::path& file, int line, const std::string& reason);
 
-/// Throws Error(bad_data).
-Layout find_layout(const std::vector<Row>& rows, const Format& format, const std::filesystem::path& file);
-
 /// Whether a cell is written like a number or a clock time.
 bool is_value(const std::string& cell);
-/// Headings of known quantities in a row, and those that the user named; 0 where a cell is a value.
-std::size_t recognised(const Row& row, const Format& format);
+
+/// Headings of known quantities, and those that the user named. Rows are examined several times, with different
+/// separators: the class remembers cells.
+class KnownHeadings {
+ public:
+  explicit KnownHeadings(const Format& format);
+  const Format& format() const { return format_; }
+
+  /// Places of such headings in a row, from 0.
+  std::vector<std::size_t> places(const Row& row);
+  /// How many there are; 0 where a cell is a value.
+  std::size_t count(const Row& row);
+
+ private:
+  bool contains(const std::string& cell);
+  bool read(const std::string& cell) const;
+
+  const Format& format_;
+  std::vector<std::string> named_;  // words of the user's headings
+  std::unordered_map<std::string, bool> cells_;
+};
+
+/// Throws Error(bad_data).
+Layout find_layout(const std::vector<Row>& rows, KnownHeadings& known, const std::filesystem::path& file);
 
 /// "Specimen 2", "Probe: 3", "Test No. 4": a line above the numbers of a specimen.
 bool is_marker(const Row& row);
-/// Places of these headings in a row, from 0.
-std::vector<std::size_t> known_places(const Row& row, const Format& format);
-
 /// A row of headings and the first row of numbers below it.
 struct Header {
   std::size_t header = 0, data = 0;
@@ -53,7 +70,7 @@ struct HeaderSearch {
   bool comments = false;   // look into comments
 };
 /// False: there is none from this row on.
-bool find_header(const std::vector<Row>& rows, std::size_t from, const Format& format,
+bool find_header(const std::vector<Row>& rows, std::size_t from, KnownHeadings& known,
                  const HeaderSearch& search, Header& found);
 
 /// The columns of a header, their units from its cells or from the rows below it, and who they belong to.

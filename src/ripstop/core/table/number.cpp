@@ -1,6 +1,6 @@
 #include "ripstop/core/table/number.h"
 
-#include <array>
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cmath>
@@ -11,42 +11,73 @@
 namespace ripstop::table {
 namespace {
 
-bool is_digit(char c) {
+constexpr bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// Digits and marks of a number; apostrophes of all kinds are '\'', blanks ' '.
+/// Of the digits of a number: decimal marks, and marks of groups.
+constexpr bool is_mark(char c) {
+  return c == '.' || c == ',' || c == '\'' || c == ' ';
+}
+
+bool only_digits(std::string_view text) {
+  return std::all_of(text.begin(), text.end(), [](char c) { return is_digit(c); });
+}
+
+/// Parts of a number; apostrophes of all kinds are '\'', blanks ' '.
 struct Written {
   bool negative = false;
-  std::string mantissa;  // digits, '.', ',', '\'', ' '
-  std::string exponent;  // "E+02"
+  std::string_view mantissa;  // digits, '.', ',', '\'', ' '
+  std::string_view exponent;  // "E+02"
 };
 
-std::optional<Written> written(std::string_view text) {
+enum class Spelling { plain, unusual, not_a_number };
+
+/// Most cells are plain and need no copy. Unusual: other blanks, apostrophes or minus signs.
+Spelling spelling_of(std::string_view text) {
+  bool unusual = false;
+  for (const char c : text) {
+    if (is_digit(c) || is_mark(c) || c == '-' || c == '+' || c == 'e' || c == 'E') continue;
+    if (static_cast<unsigned char>(c) < 0x80 && c != '`' && !(c >= '\t' && c <= '\r'))
+      return Spelling::not_a_number;
+    unusual = true;
+  }
+  return unusual ? Spelling::unusual : Spelling::plain;
+}
+
+/// The number with the usual characters.
+std::string respelled(std::string_view text) {
   std::string plain = folded(text);
   for (const std::string_view quote : {"\u2019", "\u02bc", "\u00b4", "`"})
     for (std::size_t at = 0; (at = plain.find(quote)) != std::string::npos;)
       plain.replace(at, quote.size(), "'");
   if (plain.starts_with("\u2212") || plain.starts_with("\u2013")) plain.replace(0, 3, "-");
+  return plain;
+}
+
+/// The parts are those of `text` or of `copy`.
+std::optional<Written> written(std::string_view text, std::string& copy) {
+  const Spelling spelling = spelling_of(text);
+  if (spelling == Spelling::not_a_number || text.empty()) return {};
+  if (spelling == Spelling::unusual) copy = respelled(text);
   Written number;
-  std::string_view rest = plain;
+  std::string_view rest = spelling == Spelling::unusual ? copy : text;
   if (rest.starts_with('-') || rest.starts_with('+')) {
     number.negative = rest.front() == '-';
     rest.remove_prefix(1);
     if (rest.starts_with(' ')) rest.remove_prefix(1);
   }
-  const std::size_t end = std::min(rest.find('e'), rest.size());
-  number.mantissa = rest.substr(0, end);
-  number.exponent = rest.substr(end);
-  if (number.mantissa.find_first_not_of("0123456789.,' ") != std::string::npos) return {};
-  if (number.mantissa.find_first_of("0123456789") == std::string::npos || !is_digit(number.mantissa.back()))
+  const auto end = std::find_if(rest.begin(), rest.end(), [](char c) { return c == 'e' || c == 'E'; });
+  number.mantissa = {rest.begin(), end};
+  number.exponent = {end, rest.end()};
+  if (!std::all_of(rest.begin(), end, [](char c) { return is_digit(c) || is_mark(c); })) return {};
+  if (number.mantissa.empty() || !is_digit(number.mantissa.back()))
     if (number.mantissa.size() < 2 || !is_digit(number.mantissa[number.mantissa.size() - 2])) return {};
   if (number.mantissa.front() == ' ' || number.mantissa.front() == '\'') return {};
   if (number.exponent.empty()) return number;
-  std::string_view digits = std::string_view(number.exponent).substr(1);
+  std::string_view digits = number.exponent.substr(1);
   if (digits.starts_with('-') || digits.starts_with('+')) digits.remove_prefix(1);
-  const bool whole = !digits.empty() && digits.size() < 6 &&
-                     digits.find_first_not_of("0123456789") == std::string_view::npos;
+  const bool whole = !digits.empty() && digits.size() < 6 && only_digits(digits);
   return whole ? std::optional(number) : std::nullopt;
 }
 
@@ -66,10 +97,6 @@ bool grouped(std::string_view digits, char mark) {
     run = 0;
   }
   return !first && run == 3;
-}
-
-bool only_digits(std::string_view text) {
-  return text.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
 /// Digits before the decimal mark, plain or in groups by one kind of mark.
@@ -143,7 +170,8 @@ std::optional<int> afternoon(std::string_view& text) {
 }  // namespace
 
 NumberForm form_of(std::string_view text) {
-  const std::optional<Written> number = text.empty() ? std::nullopt : written(text);
+  std::string copy;
+  const std::optional<Written> number = written(text, copy);
   if (!number) return NumberForm::not_a_number;
   const std::string_view m = number->mantissa;
   const std::size_t point = m.rfind('.'), comma = m.rfind(',');
@@ -162,7 +190,8 @@ NumberForm form_of(std::string_view text) {
 }
 
 std::optional<double> number_of(std::string_view text, char decimal) {
-  const std::optional<Written> number = text.empty() ? std::nullopt : written(text);
+  std::string copy;
+  const std::optional<Written> number = written(text, copy);
   if (!number || !fits(number->mantissa, decimal)) return {};
   std::string plain = number->negative ? "-" : "";
   for (const char c : number->mantissa)

@@ -93,12 +93,15 @@ class Splitter {
 
   std::string cell(bool comment) {
     skip_blanks();
-    std::string value;
-    if (!comment && !at_end_of_line() && text_[at_] == '"') value = quoted();
+    const bool in_quotes = !comment && !at_end_of_line() && text_[at_] == '"';
+    std::string value = in_quotes ? quoted() : "";
     const std::size_t begin = at_;
-    while (!at_end_of_line() && separator_here() == 0) ++at_;
-    value += text_.substr(begin, at_ - begin);
-    value = trimmed(value);
+    if (separator_ == blanks || separator_ == wide_blanks)
+      while (!at_end_of_line() && separator_here() == 0) ++at_;
+    else
+      while (!at_end_of_line() && text_[at_] != separator_) ++at_;
+    const std::string_view rest = text_.substr(begin, at_ - begin);
+    value = in_quotes ? trimmed(value.append(rest)) : trimmed(rest);
     if (value.size() >= 2 && value.front() == '\'' && value.back() == '\'')
       value = trimmed(std::string_view(value).substr(1, value.size() - 2));
     return value;

@@ -29,11 +29,13 @@ char stated_separator(std::string_view& text) {
 }
 
 /// How well a separator fits: headings and numbers agree, many headings, many rows of numbers.
-std::tuple<bool, std::size_t, std::size_t> fit_of(const std::vector<Row>& rows, const Format& format) {
+std::tuple<bool, std::size_t, std::size_t> fit_of(const std::vector<Row>& rows, KnownHeadings& known) {
   Header header;
+  const bool comments = std::any_of(rows.begin(), rows.end(), [](const Row& row) { return row.comment; });
   for (const HeaderSearch search : {HeaderSearch{2, false}, HeaderSearch{2, true}}) {
-    if (!find_header(rows, 0, format, search, header)) continue;
-    const std::vector<std::size_t> places = known_places(rows[header.header], format);
+    if (search.comments && !comments) break;
+    if (!find_header(rows, 0, known, search, header)) continue;
+    const std::vector<std::size_t> places = known.places(rows[header.header]);
     const auto is_whole = [&](const Row& row) {
       std::size_t values = 0;
       for (const std::size_t i : places) {
@@ -55,12 +57,20 @@ std::tuple<bool, std::size_t, std::size_t> fit_of(const std::vector<Row>& rows, 
   return {false, 0, numbers};
 }
 
-char find_separator(std::string_view text, const Format& format, const std::filesystem::path& file) {
+bool occurs(std::string_view text, char separator) {
+  if (separator == blanks) return text.find_first_of(" \t") != std::string_view::npos;
+  return text.find(separator == wide_blanks ? '\t' : separator) != std::string_view::npos ||
+         (separator == wide_blanks && text.find("  ") != std::string_view::npos);
+}
+
+char find_separator(std::string_view text, KnownHeadings& known, const std::filesystem::path& file) {
   std::string_view sample = text.substr(0, sample_bytes);
   if (sample.size() < text.size()) sample = sample.substr(0, sample.rfind('\n') + 1);
   char best = ',', in_quotes = '\0';
   std::tuple<bool, std::size_t, std::size_t> best_fit{false, 0, 0};
+  const bool quotes = sample.find('"') != std::string_view::npos;
   for (const char separator : {'\t', ';', '|', ',', wide_blanks, blanks}) {
+    if (!quotes && !occurs(sample, separator)) continue;  // one cell in each row
     std::vector<Row> rows;
     try {
       rows = split_rows(sample, separator, file);
@@ -68,7 +78,7 @@ char find_separator(std::string_view text, const Format& format, const std::file
       if (!in_quotes) in_quotes = separator;
       continue;
     }
-    const auto fit = fit_of(rows, format);
+    const auto fit = fit_of(rows, known);
     if (fit > best_fit) best = separator, best_fit = fit;
   }
   return in_quotes && !std::get<0>(best_fit) ? in_quotes : best;
@@ -177,9 +187,10 @@ Table parse_table(const std::string& bytes, const std::filesystem::path& file, c
         file, static_cast<int>(std::count(text.begin(), text.end(), '\n')) + 1,
         "the last line has no line end: the table may be incomplete; use the complete file, or end the line");
   const char stated = stated_separator(text);
-  const char separator = stated ? stated : find_separator(text, format, file);
+  KnownHeadings known(format);
+  const char separator = stated ? stated : find_separator(text, known, file);
   const std::vector<Row> rows = split_rows(text, separator, file);
-  Layout layout = find_layout(rows, format, file);
+  Layout layout = find_layout(rows, known, file);
 
   Table table{file, decoded.encoding, name_of_separator(separator), '.', {}, {}, std::move(layout.notes)};
   for (const Row& row : rows)

@@ -127,13 +127,19 @@ Text decode(const std::string& bytes, const std::filesystem::path& file) {
 
 std::string folded(std::string_view text) {
   std::string result;
+  result.reserve(text.size());
   while (!text.empty()) {
+    if (const char c = text.front(); static_cast<unsigned char>(c) < 0x80) {
+      result += is_blank(static_cast<unsigned char>(c)) ? ' '
+                : c >= 'A' && c <= 'Z'                  ? static_cast<char>(c - 'A' + 'a')
+                                                        : c;
+      text.remove_prefix(1);
+      continue;
+    }
     const Character c = first_character(text);
     const std::string_view letter = plain_letter(c.code);
     if (is_blank(c.code) && c.whole)
       result += ' ';
-    else if (c.code >= 'A' && c.code <= 'Z')
-      result += static_cast<char>(c.code - 'A' + 'a');
     else if (c.code >= 0x391 && c.code <= 0x3a9)  // Greek capitals
       append_utf8(result, c.code + 0x20);
     else if (!letter.empty())
@@ -159,12 +165,13 @@ std::string words_of(std::string_view text) {
 }
 
 std::string trimmed(std::string_view text) {
-  while (!text.empty()) {
+  const auto is_plain = [](char c) { return c > ' ' && static_cast<unsigned char>(c) < 0x80; };
+  while (!text.empty() && !is_plain(text.front())) {
     const Character c = first_character(text);
     if (!c.whole || !is_blank(c.code)) break;
     text.remove_prefix(c.length);
   }
-  while (!text.empty()) {
+  while (!text.empty() && !is_plain(text.back())) {
     std::size_t from = text.size() - 1;
     while (from > 0 && (static_cast<unsigned char>(text[from]) & 0xc0) == 0x80) --from;
     const Character c = first_character(text.substr(from));
