@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""The drag of every family that Ripstop has computed, as data for `ripstop size`: examples/families.json.
+"""Writes the computed drag of every family for `ripstop size` into examples/families.json.
 
-    /usr/bin/python3 validation/families/shipped.py        (make validate-families runs it last)
+    /usr/bin/python3 validation/families/shipped.py        (the last step of make validate-families)
 
-It is docs/tables/families.md, the table of that command, beside what the examples' case files say of the runs' conditions:
-table and data cannot differ. tests/run/sizing/size_test.cpp compares them.
+The drag is that of docs/tables/families.md, the table of the same command. Speed and density are those of the case files of the
+examples. tests/run/sizing/size_test.cpp compares table and data.
 """
 import json
 import pathlib
@@ -20,7 +20,13 @@ def rows_of(table):
     return [dict(zip(head, (cell.strip() for cell in line))) for line in lines[2:]]
 
 
-def family(row):
+def machines(table):
+    """Machine and day of the rows for which a line below the table states them."""
+    lines = re.findall(r"^Rows? (.*?): ([^,]*, \d+ \w+ \d+)\b.*\.$", table, re.MULTILINE)
+    return {name: made for names, made in lines for name in re.split(r", | and ", names)}
+
+
+def family(row, made):
     case = tomllib.loads((ROOT / "examples" / row["example"] / "case.toml").read_text())
     known = re.fullmatch(r"([\d.]+) to ([\d.]+)", row["Knacke, in descent"])
     return {
@@ -32,6 +38,7 @@ def family(row):
         "speed_m_s": case["flow"]["speed_m_s"],
         "density_kg_m3": case["flow"]["density_kg_m3"],
         "canopy_material": case["parachute"].get("canopy_material", "f-111-physical"),
+        **({"made_on": made[row["example"]]} if row["example"] in made else {}),
     }
 
 
@@ -43,7 +50,7 @@ def write():
         "made_by": made.group(1),
         "made_on": made.group(2),
         "table": "docs/tables/families.md",
-        "families": [family(row) for row in rows_of(text)],
+        "families": [family(row, machines(text)) for row in rows_of(text)],
     }
     (ROOT / "examples/families.json").write_text(json.dumps(data, indent=2) + "\n")
 

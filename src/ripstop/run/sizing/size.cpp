@@ -72,34 +72,52 @@ Balance balance_of(const SizeRequest& request, const SizeResult& r, const Case& 
                   request.payload_mass, request.descent_rate, r.density, limits.high_key, limits.high_value));
 }
 
+/// An interval with a root of a rising function, and the function at its ends.
+struct Bracket {
+  double low = 0, high = 0, below = 0, above = 0;
+};
+
+/// The root by the Illinois method: linear interpolation, with half the value of an end that has not moved twice.
+template <class Function>
+double root_in(Bracket b, const Function& function) {
+  int last = 0;  // the end that moved: -1 low, 1 high
+  while (b.high - b.low > 1e-7) {
+    const double x = b.low - b.below * (b.high - b.low) / (b.above - b.below), value = function(x);
+    if (std::abs(value) < 1e-8) return x;
+    const int end = value > 0 ? 1 : -1;
+    (end > 0 ? b.high : b.low) = x, (end > 0 ? b.above : b.below) = value;
+    if (end == last) (end > 0 ? b.below : b.above) *= 0.5;
+    last = end;
+  }
+  return 0.5 * (b.low + b.high);
+}
+
 /// The example scaled so that payload and parachute descend at the wanted rate. The mass of the parachute is at most of
 /// second order in its size, as the drag is, and there is mass without size: drag over weight rises from 0 towards the
-/// limit of the cloth alone, and is 1 at one size at most, which is found by bisection.
+/// limit of the cloth alone, and is 1 at one size at most.
 void find_size(const SizeRequest& request, const Design& example, SizeResult& r) {
   const ScaleLimits limits = scale_limits(example);
   Case sized = r.given;
   const PartMaterials materials = resolve(sized).materials();  // the example's, whatever its size
-  const auto excess = [&](double factor) {                     // of drag over weight [N]
+  const auto excess = [&](double log_factor) {                 // ln(drag / weight)
     sized.parachute = example;
-    scale_lengths(sized.parachute, factor, Rounded::no);
+    scale_lengths(sized.parachute, std::exp(log_factor), Rounded::no);
     const Balance b = balance_of(request, r, sized, materials);
-    return b.drag - b.weight;
+    return std::log(b.drag / b.weight);
   };
-  double low = std::log(limits.low), high = std::log(limits.high);
-  if (!(excess(limits.high) > 0)) refuse_size(request, r, balance_of(request, r, sized, materials), limits);
-  if (excess(limits.low) > 0)
+  Bracket bracket;
+  bracket.high = std::log(limits.high), bracket.above = excess(bracket.high);
+  if (!(bracket.above > 0)) refuse_size(request, r, balance_of(request, r, sized, materials), limits);
+  bracket.low = std::log(limits.low), bracket.below = excess(bracket.low);
+  if (bracket.below > 0)
     throw Error(
         ExitCode::usage,
         fmt::format(
             "{:g} kg at {:g} m/s in air of {:.3g} kg/m3 requires a smaller parachute than a case file can "
             "describe: parachute.{} is at least {:g} m; use a larger mass or a lower descent rate",
             request.payload_mass, request.descent_rate, r.density, limits.low_key, limits.low_value));
-  while (high - low > 1e-7) {
-    const double middle = 0.5 * (low + high);
-    (excess(std::exp(middle)) > 0 ? high : low) = middle;
-  }
   r.given.parachute = example;
-  scale_lengths(r.given.parachute, std::exp(0.5 * (low + high)));
+  scale_lengths(r.given.parachute, std::exp(root_in(bracket, excess)));
   const Balance found = balance_of(request, r, r.given, materials);
   if (!(std::abs(found.drag / found.weight - 1) <= size_tolerance))
     throw Error(
@@ -389,7 +407,7 @@ std::vector<FamilyDrag> family_drags() {
                       row.at("speed_m_s"),
                       row.at("density_kg_m3"),
                       fmt::format("{}, {}", data.at("made_by").get<std::string>(),
-                                  data.at("made_on").get<std::string>())};
+                                  row.value("made_on", data.at("made_on").get<std::string>()))};
       drag.projected_ratio = row.at("projected_over_nominal_diameter");
       const auto& handbook = row.at("handbook_drag_coefficient");
       if (!handbook.is_null()) drag.handbook = {handbook.at(0).get<double>(), handbook.at(1).get<double>()};
