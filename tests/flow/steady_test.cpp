@@ -11,7 +11,7 @@ namespace ripstop {
 namespace {
 
 /// Iteration n since the start has drag(n) and residual(n). Counts its calls.
-class Scripted final : public Flow {
+class Scripted : public Flow {
  public:
   std::function<double(int)> drag = [](int) { return 100.0; };
   std::function<double(int)> residual = [](int) { return 1.0; };
@@ -82,7 +82,23 @@ TEST(SolveToRest, ADragThatSwingsIsAveragedOverTheLastIterations) {
                     [&](const FlowProgress& p) { return last = p.iteration, true; });
   EXPECT_EQ(field.average.iterations, 40);
   EXPECT_NEAR(field.porous_force.z, 100, 1e-12);
+  EXPECT_NEAR(field.average.drag_deviation, 10 * std::sqrt(40.0 / 39), 1e-12);
   EXPECT_EQ(last, 100);
+}
+
+// Across the stream the force swings, along it the drag that the flow reports is constant.
+TEST(SolveToRest, DeviationOfTheDragIsThatAlongTheStream) {
+  class Oblique : public Scripted {
+    FlowField field() const override {
+      FlowField field;
+      const double across = iteration % 2 ? 30 : -30;
+      field.porous_force = {60 + 0.8 * across, 0, 80 - 0.6 * across};  // stream along (0.6, 0, 0.8)
+      return field;
+    }
+  } flow;
+  const FlowField field = solve_to_rest(flow, {.max_iterations = 100, .average_over = 40});
+  EXPECT_NEAR(field.porous_force.z, 80, 1e-12);
+  EXPECT_NEAR(field.average.drag_deviation, 0, 1e-12);
 }
 
 TEST(SolveToRest, AFlowThatSettlesInsideTheWindowHasItsLastField) {

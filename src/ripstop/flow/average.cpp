@@ -1,8 +1,5 @@
 #include "ripstop/flow/average.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace ripstop {
 namespace {
 
@@ -43,43 +40,28 @@ void FieldMean::add(const FlowField& field) {
 }
 
 void FieldMean::add(const FlowField& field, const Cells& cells) {
-  const double drag = field.porous_force.z;
-  take(field, cells, {1, drag, 0, drag, drag}, 0);
+  take(field, cells, 1);
 }
 
 void FieldMean::add(const FieldMean& other) {
-  if (other.count() > 0) take(other.mean_, cells_of(other.mean_), other.mean_.average, other.squares_);
+  if (other.count() > 0) take(other.mean_, cells_of(other.mean_), other.count());
 }
 
-// Mean and squares of two sets together (Chan, Golub and LeVeque 1983).
-void FieldMean::take(const FlowField& field, const Cells& cells, const FlowAverage& more, double squares) {
-  if (count() == 0) {
+void FieldMean::take(const FlowField& field, const Cells& cells, int count) {
+  const int before = mean_.average.iterations;
+  if (before == 0) {
     mean_ = field;
     if (mean_.pressure.empty()) {
       mean_.pressure.resize(mean_.grid.cells());
       mean_.velocity.resize(mean_.grid.cells());
       cells(mean_, 1);
     }
-    mean_.average = more;
-    squares_ = squares;
-    return;
+  } else {
+    const double share = double(count) / (before + count);
+    pull(mean_, field, share);
+    cells(mean_, share);
   }
-  FlowAverage& average = mean_.average;
-  const double share = double(more.iterations) / (average.iterations + more.iterations);
-  pull(mean_, field, share);
-  cells(mean_, share);
-  const double apart = more.drag - average.drag;
-  squares_ += squares + apart * apart * average.iterations * share;
-  average.iterations += more.iterations;
-  average.drag += share * apart;
-  average.drag_low = std::min(average.drag_low, more.drag_low);
-  average.drag_high = std::max(average.drag_high, more.drag_high);
-}
-
-FlowField FieldMean::mean() const {
-  FlowField field = mean_;
-  if (count() > 1) field.average.drag_deviation = std::sqrt(squares_ / (count() - 1));
-  return field;
+  mean_.average = {before + count, 0};
 }
 
 }  // namespace ripstop

@@ -19,15 +19,15 @@ class FieldMean {
   /// All other data of a mean, of fields on the same grid around the same cloth.
   void add(const FieldMean& other);
   int count() const { return mean_.average.iterations; }
-  /// The mean so far, FlowField::average set; `last` and `converged` are those of the newest field.
-  FlowField mean() const;
+  /// The mean so far, with the number of fields in FlowField::average; `last` and `converged` are those of the newest
+  /// field.
+  const FlowField& mean() const { return mean_; }
 
  private:
-  /// `more` and `squares` are of the fields that `field` is the mean of.
-  void take(const FlowField& field, const Cells& cells, const FlowAverage& more, double squares);
+  /// `field` is the mean of `count` fields.
+  void take(const FlowField& field, const Cells& cells, int count);
 
   FlowField mean_;
-  double squares_ = 0;  // sum of squared distances of the drag from its mean [N2]
 };
 
 }  // namespace ripstop

@@ -164,10 +164,8 @@ double largest_residual(const FlowProgress& progress);
 /// Over the last iterations of a run that does not converge. Iterations are not time: the mean is that of the
 /// limit cycle of the iteration, and the deviation is the size of the cycle.
 struct FlowAverage {
-  int iterations = 0;                  // in the window; 0: nothing was averaged
-  double drag = 0;                     // mean of porous_force.z [N]
-  double drag_deviation = 0;           // standard deviation over the window [N]
-  double drag_low = 0, drag_high = 0;  // [N]
+  int iterations = 0;         // in the window; 0: nothing was averaged
+  double drag_deviation = 0;  // standard deviation of the force along the stream [N]
 };
 
 struct FlowField {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/quantity_error.h"
@@ -25,6 +27,16 @@ bool has_settled(const std::vector<double>& drag, double share) {
   if (!(share > 0) || drag.empty()) return false;
   const auto [low, high] = std::minmax_element(drag.begin(), drag.end());
   return *high - *low < share * std::abs(drag.back());
+}
+
+/// Standard deviation of a sample; 0: it has one value.
+double deviation(const std::vector<double>& values) {
+  const auto count = static_cast<double>(values.size());
+  if (count < 2) return 0;
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
+  double squares = 0;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return std::sqrt(squares / (count - 1));
 }
 
 /// The iterations of one start.
@@ -60,12 +72,16 @@ class Run {
   // A mean is one over the whole window; a run that settles or is stopped inside it has its last field.
   FlowField average() {
     FieldMean mean;
+    std::vector<double> drags;
     for (int n = 0; n < stopping_.average_over; ++n) {
       advance(1);
       if (now_.converged || now_.stopped) return last();
       flow_.add_to(mean);
+      drags.push_back(drag_.back());
     }
-    return told(mean.mean());
+    FlowField field = told(mean.mean());
+    field.average.drag_deviation = deviation(drags);
+    return field;
   }
 
   FlowField last() const { return told(flow_.field()); }

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <vector>
@@ -29,7 +28,7 @@ CartesianSettings one_thread() {
   return settings;
 }
 
-TEST(FlowAverage, MeanDeviationAndRangeAreThoseOfTheDragsThatWereReported) {
+TEST(FlowAverage, MeanAndDeviationAreThoseOfTheDragsThatWereReported) {
   FlowProblem problem = restless_wake();
   problem.stopping.max_iterations = 60;
   problem.stopping.average_over = 25;
@@ -44,11 +43,8 @@ TEST(FlowAverage, MeanDeviationAndRangeAreThoseOfTheDragsThatWereReported) {
   double mean = 0, squares = 0;
   for (double d : drag) mean += d / 25;
   for (double d : drag) squares += (d - mean) * (d - mean);
-  EXPECT_NEAR(field.average.drag, mean, 1e-10 * mean);
   EXPECT_NEAR(field.porous_force.z, mean, 1e-10 * mean);
   EXPECT_NEAR(field.average.drag_deviation, std::sqrt(squares / 24), 1e-9 * mean);
-  EXPECT_EQ(field.average.drag_low, *std::min_element(drag.begin(), drag.end()));
-  EXPECT_EQ(field.average.drag_high, *std::max_element(drag.begin(), drag.end()));
   EXPECT_GT(field.average.drag_deviation, 0);
 }
 
@@ -63,7 +59,7 @@ TEST(FlowAverage, TheMeanOfALimitCycleIsRepeatableAndConservesMomentum) {
   const FlowField second = solve_to_rest(*flow, problem.stopping);  // continues from the last iteration
   ASSERT_FALSE(first.converged);
   ASSERT_FALSE(second.converged);
-  EXPECT_LT(std::abs(second.average.drag - first.average.drag), first.average.drag_deviation);
+  EXPECT_LT(std::abs(second.porous_force.z - first.porous_force.z), first.average.drag_deviation);
   EXPECT_NEAR(first.momentum_deficit.z / first.porous_force.z, 1, 0.005);
   EXPECT_NEAR(second.momentum_deficit.z / second.porous_force.z, 1, 0.005);
 }
