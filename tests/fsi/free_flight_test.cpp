@@ -155,6 +155,30 @@ TEST(FreeFlight, VibrationsOfTheMeshAreDamped) {
   EXPECT_LT(elastic_energy(flight.cloth(), state.coupled.cloth), 0.01 * state.elastic_at_start);
 }
 
+// A canopy that is deployed along the horizon may first be next to its payload, and later not.
+TEST(FreeFlight, TurnedOverIsWiderOnlyUntilADeployedCanopyIsUpright) {
+  FlightProblem given = problem(6, linear);
+  OpeningEnd end;
+  end.speed = 6, end.shape = given.shape;
+  end.velocity.assign(end.shape.size(), {});
+  given.from = end;
+  FreeFlight flight(std::move(given));
+  FreeFlightState state;
+  FreeFlightRow row;
+  row.angle = 110;
+  EXPECT_EQ(flight.failure(state, row), "");
+  row.angle = 130;
+  EXPECT_NE(flight.failure(state, row), "");
+  state.upright = true;
+  row.angle = 110;
+  EXPECT_NE(flight.failure(state, row), "");
+  FreeFlight released(problem(6, linear));
+  FreeFlightState start = released.start();
+  EXPECT_FALSE(start.upright);
+  EXPECT_LT(released.advance(start).angle, 60);
+  EXPECT_TRUE(start.upright);
+}
+
 TEST(FreeFlight, RefusesAPayloadWithoutMassAndSeveralPayloads) {
   FlightProblem weightless = problem(6, linear);
   weightless.payload_mass = 0;

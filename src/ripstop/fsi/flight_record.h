@@ -62,6 +62,7 @@ struct FreeFlightState {
   Vec3 impulse;                 // of air, weight and the payload's drag since the start [N s]
   double mouth_at_start = 0;    // FreeFlightRow::mouth_area [m2]
   double collapsed_since = -1;  // [s]; negative: the canopy is open
+  bool upright = false;         // the canopy has been above its payload since the start
 };
 
 template <Of<FreeFlightState> T, class Visit>
@@ -77,6 +78,7 @@ void each_member(T& s, Visit&& visit) {
   visit("impulse", s.impulse);
   visit("mouth_at_start", s.mouth_at_start);
   visit("collapsed_since", s.collapsed_since);
+  visit("upright", s.upright);
 }
 
 }  // namespace ripstop

@@ -24,6 +24,8 @@ constexpr double longest_share = 0.02;
 // Below this share of the mouth's area at the start, for so long [s], a canopy counts as collapsed.
 constexpr double collapsed_share = 0.25, collapsed_for = 0.5;
 constexpr double turned_over = 90;  // [deg]
+constexpr double deployment_swing =
+    30;  // beyond the direction of the deployment, and below `turned_over` [deg]
 
 std::vector<int> nodes_of_patches(const Mesh& mesh) {
   std::vector<char> used(mesh.mass.size(), 0);
@@ -306,13 +308,15 @@ FreeFlightRow FreeFlight::advance(FreeFlightState& state) {
     state.collapsed_since = -1;
   else if (state.collapsed_since < 0)
     state.collapsed_since = row.time;
+  if (row.angle < turned_over - deployment_swing) state.upright = true;
   return row;
 }
 
 std::string FreeFlight::failure(const FreeFlightState& state, const FreeFlightRow& row) const {
-  // The canopy of a payload that is deployed along the horizon begins next to it.
-  const double limit =
-      problem_.from ? std::max(turned_over, turned_over - problem_.from->angle / degree + 30) : turned_over;
+  // The canopy of a payload that is deployed along the horizon begins next to it, and then swings up.
+  double limit = turned_over;
+  if (problem_.from && !state.upright)
+    limit = std::max(limit, turned_over - problem_.from->angle / degree + deployment_swing);
   if (row.angle > limit) return fmt::format("the parachute turned over at {:.4g} s", row.time);
   if (state.collapsed_since >= 0 && row.time - state.collapsed_since > collapsed_for)
     return fmt::format("the canopy collapsed at {:.4g} s", state.collapsed_since);
