@@ -22,6 +22,14 @@ inline Case flat_circular_case(double diameter_m, int cloth_nodes, double speed_
   return given;
 }
 
+/// A canopy of 1 m with a payload, on a coarse mesh.
+inline Case small_payload_case(double speed_m_s) {
+  Case given = flat_circular_case(1, 500, speed_m_s);
+  given.parachute.mesh.line_segment_m = 0.25;
+  given.payload.mass_kg = 0.8, given.payload.drag_area_m2 = 0.01;
+  return given;
+}
+
 /// The settings of the same case after an edit of it.
 template <class Edit>
 Settings edited(const Settings& resolved, Edit edit) {

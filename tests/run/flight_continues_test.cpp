@@ -21,11 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A canopy of 1 m at 8 m/s on cells as coarse as can show it.
+/// On cells as coarse as can show a canopy.
 Case small_deployment() {
-  Case given = flat_circular_case(1, 500, 8);
-  given.parachute.mesh.line_segment_m = 0.25;
-  given.payload.mass_kg = 0.8, given.payload.drag_area_m2 = 0.01;
+  Case given = small_payload_case(8);
   given.inflation.initial_radius_m = 0.12;
   given.inflation.duration_s = 0.02, given.inflation.frames = 4;
   given.flight.start = FlightSettings::Start::inflation;

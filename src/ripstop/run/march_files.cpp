@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 
 #include "ripstop/canopy/stress.h"
@@ -19,16 +18,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* file = "checkpoint";
-constexpr const char* air_folders[] = {"even", "odd"};
 
 }  // namespace
 
-double MarchFiles::now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 fs::path MarchFiles::air_folder(int which) const {
-  return folder_.own("air/") / air_folders[which];
+  return folder_.own("air/") / alternating_folders[static_cast<std::size_t>(which)];
 }
 
 void MarchFiles::drop_air(const fs::path& folder) {
@@ -50,7 +44,7 @@ std::optional<std::string> MarchFiles::load() {
   if (!fs::exists(saved)) return std::nullopt;
   const std::string bytes = read_sealed(saved), head = bytes.substr(0, bytes.find('\n'));
   loaded_ = head.substr(0, head.find(' '));
-  last_ = head.ends_with(air_folders[1]) ? 1 : 0;
+  last_ = head.ends_with(alternating_folders[1]) ? 1 : 0;
   return bytes.substr(std::min(bytes.size(), head.size() + 1));
 }
 
@@ -70,11 +64,11 @@ void MarchFiles::save(const std::string& state, const CoupledFlow* air) {
   if (air) {
     last_ = 1 - last_;
     air->save(air_folder(last_));
-    head += fmt::format(" {}", air_folders[last_]);
+    head += fmt::format(" {}", alternating_folders[static_cast<std::size_t>(last_)]);
   }
   folder_.keep();
   write_sealed(folder_.own(file), head + '\n' + state);
-  saved_ = now();
+  timer_.restart();
 }
 
 std::string frame_file(const std::string& what, long long frame, const std::string& ending) {

@@ -11,6 +11,7 @@
 #include "ripstop/core/vec3.h"
 #include "ripstop/fsi/coupled_flow.h"
 #include "ripstop/parachute/canopy_mesh.h"
+#include "ripstop/run/checkpoint_parts.h"
 #include "ripstop/run/run_folder.h"
 
 namespace ripstop {
@@ -21,7 +22,7 @@ namespace ripstop {
 class MarchFiles {
  public:
   /// A checkpoint is due after so many seconds of wall time.
-  MarchFiles(RunFolder& folder, double every_s) : folder_(folder), every_(every_s), saved_(now()) {}
+  MarchFiles(RunFolder& folder, double every_s) : folder_(folder), timer_(every_s) {}
 
   /// The state at the last checkpoint; nothing: the run begins. Throws Error(bad_data), Error(io).
   std::optional<std::string> load();
@@ -33,7 +34,7 @@ class MarchFiles {
   /// Throws Error(bad_data) where a table, or another file, is not as at the checkpoint.
   void check() const;
 
-  bool due(double times = 1) const { return now() - saved_ > times * every_; }
+  bool due(double times = 1) const { return timer_.due(times); }
   /// Rows that the table does not have yet.
   template <class Row>
   void add(const std::string& name, const std::vector<Row>& all);
@@ -49,14 +50,13 @@ class MarchFiles {
     std::vector<std::string> columns;
     std::size_t rows = 0;  // in the file
   };
-  static double now();
   CsvLog log(const Table& table) const { return {folder_.own(table.name), table.columns, table.rows}; }
   std::filesystem::path air_folder(int which) const;
   std::string hash() const;
   Table& table(const std::string& name);
 
   RunFolder& folder_;
-  double every_, saved_;  // [s]
+  CheckpointTimer timer_;
   std::vector<Table> tables_;
   std::string loaded_;  // hash of the tables at the checkpoint; empty: none
   int last_ = 1;        // which folder has the air of the last checkpoint

@@ -23,9 +23,7 @@ namespace fs = std::filesystem;
 
 /// On cells as coarse as can show a canopy, for some steps of the flow.
 Case small_flight() {
-  Case given = flat_circular_case(1, 500, 5);
-  given.parachute.mesh.line_segment_m = 0.25;
-  given.payload.mass_kg = 0.8, given.payload.drag_area_m2 = 0.01;
+  Case given = small_payload_case(5);
   given.flow.max_iterations = 60;
   given.coupling.max_iterations = 4;
   given.flight.cells_across = 10;

@@ -1,7 +1,5 @@
 #include "ripstop/run/stability/window_checkpoint.h"
 
-#include <algorithm>
-#include <chrono>
 #include <filesystem>
 
 #include "ripstop/core/file.h"
@@ -34,7 +32,6 @@ namespace fs = std::filesystem;
 constexpr int window_format = 1;
 constexpr const char* window_folder = "window/";
 constexpr const char* steps_file = "steps";
-constexpr const char* flow_folders[] = {"even", "odd"};
 
 struct Steps {
   std::vector<FlowStep> steps;
@@ -46,21 +43,17 @@ void each_member(T& saved, Visit&& visit) {
   visit("flow", saved.flow);
 }
 
-double time_on_the_wall() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 }  // namespace
 
 WindowCheckpoint::WindowCheckpoint(ClaimedFolder& folder, double every_s)
-    : folder_(folder), every_(every_s), saved_(time_on_the_wall()) {}
+    : folder_(folder), timer_(every_s) {}
 
 std::optional<FlowRecord> WindowCheckpoint::resume(Flow& flow) {
   const fs::path file = folder_.path() / window_folder / steps_file;
   if (!fs::exists(file)) return {};
   Steps saved = from_cbor<Steps>(read_sealed(file), window_format, "a checkpoint of an averaging window");
-  const int which = std::clamp(saved.flow, 0, 1);
-  flow.restore(folder_.path() / window_folder / flow_folders[which]);
+  const std::size_t which = saved.flow == 0 ? 0 : 1;
+  flow.restore(folder_.path() / window_folder / alternating_folders[which]);
   next_ = 1 - which;
   FlowRecord record;
   record.steps = std::move(saved.steps);
@@ -68,12 +61,13 @@ std::optional<FlowRecord> WindowCheckpoint::resume(Flow& flow) {
 }
 
 void WindowCheckpoint::look(const Flow& flow, const FlowRecord& record) {
-  if (time_on_the_wall() - saved_ < every_) return;
+  if (!timer_.due()) return;
   const fs::path folder = folder_.own(window_folder);
-  make_folder(folder / flow_folders[next_]);
-  flow.save(folder / flow_folders[next_]);
-  write_sealed(folder / steps_file, to_cbor(Steps{record.steps, next_}, window_format));
-  next_ = 1 - next_, saved_ = time_on_the_wall();
+  make_folder(folder / alternating_folders[next_]);
+  flow.save(folder / alternating_folders[next_]);
+  write_sealed(folder / steps_file, to_cbor(Steps{record.steps, static_cast<int>(next_)}, window_format));
+  next_ = 1 - next_;
+  timer_.restart();
 }
 
 void WindowCheckpoint::remove() const {

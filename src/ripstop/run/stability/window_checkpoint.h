@@ -1,10 +1,12 @@
 // The checkpoint within an angle of attack: the steps of its averaging window and the flow after them.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 
 #include "ripstop/core/claimed_folder.h"
 #include "ripstop/flow/unsteady.h"
+#include "ripstop/run/checkpoint_parts.h"
 
 namespace ripstop {
 
@@ -22,8 +24,8 @@ class WindowCheckpoint {
 
  private:
   ClaimedFolder& folder_;
-  double every_, saved_;  // [s]
-  int next_ = 0;          // which of its two folders the next flow goes to
+  CheckpointTimer timer_;
+  std::size_t next_ = 0;  // which of its two folders the next flow goes to
 };
 
 }  // namespace ripstop

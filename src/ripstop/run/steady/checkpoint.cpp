@@ -8,6 +8,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/hash.h"
+#include "ripstop/run/checkpoint_parts.h"
 #include "ripstop/run/json.h"
 
 namespace ripstop {
@@ -30,7 +31,7 @@ SteadyState steady_state_from_bytes(const std::string& bytes) {
 
 void save_checkpoint(const fs::path& folder, const SteadyState& state, const Flow& flow) {
   make_folder(folder);
-  const std::string name = state.iterations.size() % 2 == 0 ? "even" : "odd";
+  const std::string name = alternating_folders[state.iterations.size() % 2];
   remove_path(folder / name);
   make_folder(folder / name);
   write_sealed(folder / name / "state", to_bytes(state));
@@ -43,7 +44,7 @@ namespace {
 
 /// Of the two, the one that `current` names first.
 std::vector<std::string> in_turn(const fs::path& folder) {
-  std::vector<std::string> names = {"odd", "even"};
+  std::vector<std::string> names(alternating_folders.rbegin(), alternating_folders.rend());
   try {
     if (read_sealed(folder / "current") == names[1]) std::swap(names[0], names[1]);
   } catch (const Error&) {  // damaged, or never written: any whole one will do

@@ -17,6 +17,7 @@
 #include "ripstop/output/picture.h"
 #include "ripstop/output/plot.h"
 #include "ripstop/output/vtk.h"
+#include "ripstop/run/checkpoint_parts.h"
 #include "ripstop/run/engine.h"
 #include "ripstop/run/steady/checkpoint.h"
 #include "ripstop/run/steady/watch_files.h"
@@ -299,7 +300,7 @@ Settings settings_of_run(const fs::path& folder) {
 
 void drop_flow_checkpoint(const fs::path& folder) {
   if (!fs::exists(folder / "result.json")) return;
-  for (const char* name : {"even", "odd"}) remove_path(folder / "checkpoint" / name / "flow");
+  for (const char* name : alternating_folders) remove_path(folder / "checkpoint" / name / "flow");
 }
 
 }  // namespace ripstop
