@@ -155,10 +155,10 @@ void Builder::attach(int index) {
     if (!(design_.tape.seams && materials_.tape) && !lines_reach_vent_)
       throw QuantityError(
           ExitCode::usage,
-          fmt::format("no line or tape crosses the slot below the {}: extend the lines to the vent, or "
-                      "tape the seams",
+          fmt::format("no line or tape crosses the slot below the {}: it needs either the default length "
+                      "of lines on the canopy, which reaches the vent, or tape on the seams",
                       strip.name),
-          {"extend the lines to the vent", "tape the seams"});
+          {"length of lines on the canopy", "tape on the seams"});
     return;
   }
   std::set<int> columns;  // of the coarser edge
