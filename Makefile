@@ -34,7 +34,7 @@ ARCH_CHECK := gtest benchmark python pybind11 python-numpy python-jsonschema
 
 export PATH := /usr/bin:$(PATH)
 
-.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-openings validate-flights judge torture test-drawings test-slurm test-hosts test-debian12 test-debian13 scaling docs reference report-libraries format format-check install-build install wheel tarball test-portable container package clean
+.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-openings validate-flights judge torture test-sizes test-drawings test-slurm test-hosts test-debian12 test-debian13 scaling docs reference report-libraries format format-check install-build install wheel tarball test-portable container package clean
 
 help:  ## This list
 	@grep -hE '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -169,6 +169,9 @@ judge: check-deps build  ## Cross-validation of the built-in engine with OpenFOA
 
 torture: build  ## Tiny runs with kills, failing writes, damaged files and wrong programs, into docs/tables: hours; resumable
 	@/usr/bin/python3 validation/reliability/torture.py --ripstop build/bin/ripstop $(TORTURE)
+
+test-sizes: build  ## ripstop size for 1,000 payloads, rates and heights, into docs/tables: a minute
+	@/usr/bin/python3 validation/reliability/size_grid.py --ripstop build/bin/ripstop
 
 test-drawings: build  ## Cutting patterns opened by LibreCAD and Inkscape, and measured there
 	$(call install_missing,$(DRAWING_PACKAGES))
