@@ -34,7 +34,7 @@ ARCH_CHECK := gtest benchmark python pybind11 python-numpy python-jsonschema
 
 export PATH := /usr/bin:$(PATH)
 
-.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-openings validate-flights judge torture test-sizes test-drawings test-slurm test-hosts test-debian12 test-debian13 scaling docs reference report-libraries format format-check install-build install wheel tarball test-portable container package clean
+.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-openings validate-flights judge torture test-sizes test-tutorials test-drawings test-slurm test-hosts test-debian12 test-debian13 scaling docs reference report-libraries format format-check install-build install wheel tarball test-portable container package clean
 
 help:  ## This list
 	@grep -hE '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -172,6 +172,11 @@ torture: build  ## Tiny runs with kills, failing writes, damaged files and wrong
 
 test-sizes: build  ## ripstop size for 1,000 payloads, rates and heights, into docs/tables: a minute
 	@/usr/bin/python3 validation/reliability/size_grid.py --ripstop build/bin/ripstop
+
+test-tutorials: check-deps  ## Follow every tutorial from its page in a fresh clone, times into docs/tables: some minutes
+	@cmake --preset release > /dev/null
+	@cmake --build --preset release -j $(JOBS) --target ripstop_program ripstop_python
+	@/usr/bin/python3 -B validation/tutorials/follow.py --ripstop build-check/bin/ripstop --python build-check/python
 
 test-drawings: build  ## Cutting patterns opened by LibreCAD and Inkscape, and measured there
 	$(call install_missing,$(DRAWING_PACKAGES))

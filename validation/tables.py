@@ -18,6 +18,23 @@ def made_by(runs):
     return "; ".join(sorted({run["processor"] for run in runs})) + ", " + " to ".join(dict.fromkeys([named[0], named[-1]]))
 
 
+def machine():
+    """Model of the processor of this machine."""
+    return next((line.split(":")[1].strip() for line in open("/proc/cpuinfo", encoding="utf-8") if line.startswith("model name")), "unknown")
+
+
+def here():
+    """This machine and today, as the run of a table that is made without run folders."""
+    return [{"started": f"{datetime.date.today()}", "processor": machine()}]
+
+
+def rows_of(name):
+    """Cells of the rows of a table of docs/tables, without its head; none where the page does not exist."""
+    page = ROOT / "docs/tables" / f"{name}.md"
+    lines = [line for line in page.read_text().splitlines() if line.startswith("| ")] if page.exists() else []
+    return [[cell.strip() for cell in line.strip().strip("|").split("|")] for line in lines[1:]]
+
+
 def runs_below(folder):
     """The run.json of all runs in a folder."""
     return [json.loads(path.read_text()) for path in sorted(pathlib.Path(folder).rglob("run.json"))]

@@ -9,7 +9,6 @@ the outlines must be those of the design: within 0.01 mm in Inkscape, and within
 millimetres is 0.015 % too short at any resolution (in inches 0.002 %). Writes docs/tables/drawings.md; the exit code is 1 where one differs.
 """
 import argparse
-import datetime
 import os
 import pathlib
 import re
@@ -119,11 +118,10 @@ def main():
                         rows.append([case, dxf.stem, unit, program, f"{wanted[0]:.2f} x {wanted[1]:.2f}", f"{seen[0]:.2f} x {seen[1]:.2f}", f"{error:.3f}"])
     versions = subprocess.run(["dpkg-query", "-W", "-f=${Package} ${Version}\n", "librecad", "inkscape"], capture_output=True, text=True,
                               check=False).stdout.splitlines()
-    machine = next((line.split(":")[1].strip() for line in open("/proc/cpuinfo", encoding="utf-8") if line.startswith("model name")), "unknown")
     lines = [f"Width and height that other programs measure of the files of `ripstop pattern` ({'; '.join(versions)}). Inkscape agrees within "
              f"{INKSCAPE_MM} mm. The print of LibreCAD agrees within {100 * LIBRECAD:g} %: for drawings in millimetres it is 0.015 % short itself.", "",
              *tables.table(["design", "piece", "unit of the file", "measured by", "wanted, mm", "measured, mm", "largest difference, mm"], rows)]
-    tables.write("drawings", "Cutting patterns in other programs", "make test-drawings", [{"started": f"{datetime.date.today()}", "processor": machine}], lines)
+    tables.write("drawings", "Cutting patterns in other programs", "make test-drawings", tables.here(), lines)
     print("\n".join(lines))
     return 1 if wrong else 0
 

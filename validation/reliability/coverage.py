@@ -7,7 +7,6 @@ The tests with OpenFOAM and those in Python are left out. A line counts once, al
 sets are compiled several times; a header counts in every file that includes it.
 """
 import collections
-import datetime
 import json
 import pathlib
 import subprocess
@@ -56,9 +55,8 @@ def main():
     in_all = rooms.pop("all")
     lines = tables.table(head, [*(row(name, *rooms[name]) for name in sorted(rooms)), row("all", *in_all)])
     lines += ["## By file", "", *tables.table(head, rows)]
-    processor = next((l.split(":")[1].strip() for l in open("/proc/cpuinfo", encoding="utf-8") if l.startswith("model name")), "unknown")
     tables.write("coverage", "Lines of the sources that the tests run, without OpenFOAM's", "make coverage",
-                 [{"started": f"{datetime.date.today()}", "processor": processor}], lines)
+                 tables.here(), lines)
     print(f"{100 * in_all[0] / in_all[1]:.1f} % of {in_all[1]} lines")
 
 

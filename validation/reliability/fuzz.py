@@ -66,27 +66,37 @@ def open_finds(reader):
             if subprocess.run([PROGRAMS / f"fuzz_{reader}", *LIMITS, find], env=ENVIRONMENT, capture_output=True, check=False).returncode != 0]
 
 
+HEAD = ["reader", "executions", "min", "edges reached", "corpus, files", "peak memory, MB", "found", "open", "machine and day"]
+
+
+def earlier_rows():
+    """Rows of the present table by reader. Readers without runs on this machine keep theirs."""
+    rows = {row[0]: row for row in tables.rows_of("fuzz")}
+    page = ROOT / "docs/tables/fuzz.md"
+    made = re.search(r"^`make fuzz`: (.*)\.$", page.read_text(), re.MULTILINE)[1] if page.exists() else ""
+    return {reader: row if len(row) == len(HEAD) else [*row, made] for reader, row in rows.items()}
+
+
 def write_table(runs, still_open):
-    machine = next((line.split(":")[1].strip() for line in open("/proc/cpuinfo", encoding="utf-8") if line.startswith("model name")), "unknown")
-    rows, executions, calls_with_finds, seconds = [], 0, 0, 0.0
+    earlier, rows = earlier_rows(), []
     for reader in READERS:
         own = [run for run in runs if run["reader"] == reader]
-        if not own:
-            continue
-        rows.append([reader, f"{sum(run['executions'] for run in own):,}", f"{sum(run['seconds'] for run in own) / 60:.0f}", str(own[-1]["edges"]),
-                     str(own[-1]["corpus"]), str(max(run["peak_rss_mb"] for run in own)), str(sum(run["code"] != 0 for run in own)),
-                     str(len(still_open[reader]))])
-        executions += sum(run["executions"] for run in own)
-        calls_with_finds += sum(run["code"] != 0 for run in own)
-        seconds += sum(run["seconds"] for run in own)
-    rows.append(["**all**", f"{executions:,}", f"{seconds / 60:.0f}", "", "", "", str(calls_with_finds), str(sum(map(len, still_open.values())))])
+        if own:
+            made = tables.made_by([{"started": run["day"], "processor": tables.machine()} for run in own])
+            rows.append([reader, f"{sum(run['executions'] for run in own):,}", f"{sum(run['seconds'] for run in own) / 60:.0f}", str(own[-1]["edges"]),
+                         str(own[-1]["corpus"]), str(max(run["peak_rss_mb"] for run in own)), str(sum(run["code"] != 0 for run in own)),
+                         str(len(still_open[reader])), made])
+        elif reader in earlier:
+            rows.append(earlier[reader])
+    executions, minutes, found, left = (sum(int(row[column].replace(",", "")) for row in rows) for column in (1, 2, 6, 7))
+    rows.append(["**all**", f"{executions:,}", str(minutes), "", "", "", str(found), str(left), ""])
     commits = collections.Counter(run["commit"] for run in runs)
-    lines = [f"Any bytes, up to {LONGEST // 1024} kB, grown from the corpus by what they reach, under the address and undefined-behaviour sanitizers. "
-             f"A find crashes, takes over {SLOWEST_S} s or over {MEMORY_MB} MB (the sanitizers' own included), or throws what is no `Error`; found: calls "
-             "that ended with one. Open: finds that the harness of the last call still stumbles over. "
-             "Calls by commit: " + ", ".join(f"{commit} {count}" for commit, count in sorted(commits.items())) + ".", "",
-             *tables.table(["reader", "executions", "min", "edges reached", "corpus, files", "peak memory, MB", "found", "open"], rows)]
-    tables.write("fuzz", "Readers given any bytes", "make fuzz", [{"started": run["day"], "processor": machine} for run in runs], lines)
+    lines = [f"Any bytes, up to {LONGEST // 1024} kB, grown from the corpus by the code that they reach, under the address and undefined-behaviour "
+             f"sanitizers. A failing input crashes the reader, takes over {SLOWEST_S} s or over {MEMORY_MB} MB (including the sanitizers), or throws "
+             "anything but an `Error`. Found: calls with a failing input. Open: inputs that still fail after the last call. "
+             "Last calls by commit: " + ", ".join(f"{commit} {count}" for commit, count in sorted(commits.items())) + ".", "",
+             *tables.table(HEAD, rows)]
+    tables.write("fuzz", "Readers given any bytes", "make fuzz", [{"started": run["day"], "processor": tables.machine()} for run in runs], lines)
     print(f"{executions:,} executions in all")
 
 

@@ -55,8 +55,7 @@ def write_one(name, title, mutants, dropped, log, command, of_what):
     lines += tables.table(["where", "what was put", "for what", "judged", "why"],
                           [[f"{path}:{line}", code(m.mutant) if m.mutant else f"no `{m.text}`", code(m.text), kind, reason]
                            for kind, path, line, reason, m in sorted(survivors, key=lambda s: (s[0] != "hole", s[0], s[1], int(s[2])))])
-    processor = next((l.split(":")[1].strip() for l in open("/proc/cpuinfo", encoding="utf-8") if l.startswith("model name")), "unknown")
-    tables.write(name, title, command, [{"started": day, "processor": processor} for day in sorted(days)], lines)
+    tables.write(name, title, command, [{"started": day, "processor": tables.machine()} for day in sorted(days)], lines)
     held = total["run"] - total["equivalent"] - total["harmless"]
     print(f"{name}: {total['run']} run, {held} neither equivalent nor harmless, {total['caught']} caught, {total['not judged']} not judged")
 

@@ -10,7 +10,6 @@ docs/tables/size-grid.md: outcomes, processor time and memory. The exit code is 
 
 import argparse
 import collections
-import datetime
 import itertools
 import json
 import math
@@ -91,10 +90,6 @@ def run(options, folder, mass, rate, height, family):
     return "found" if "exceeds its allowable load" not in err else "found, with the warning that a load exceeds the allowable one", seconds, megabytes
 
 
-def machine():
-    return next((line.split(":")[1].strip() for line in open("/proc/cpuinfo", encoding="utf-8") if line.startswith("model name")), "unknown")
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--ripstop", type=pathlib.Path, default=pathlib.Path("build/bin/ripstop"))
@@ -120,7 +115,7 @@ def main():
              f"Processor time: median {1000 * statistics.median(time[0] for time in times):.0f} ms, largest {1000 * slowest[0]:.0f} ms ({slowest[1]}); "
              f"{len(slow)} above {1000 * options.seconds:g} ms. Largest memory {max(memory):.0f} MB."]
     tables.write("size-grid", "Sizes over mass, rate, height and family", "make test-sizes",
-                 [{"started": f"{datetime.date.today()}", "processor": machine()}], lines)
+                 tables.here(), lines)
     print("\n".join(lines + wrong + [f"slow: {seconds:.3f} s, {label}" for seconds, label in slow]))
     return 1 if wrong or slow or max(memory) > options.megabytes else 0
 

@@ -21,7 +21,6 @@ import collections
 import concurrent.futures
 import datetime
 import pathlib
-import platform
 import random
 import shutil
 import signal
@@ -182,13 +181,6 @@ def run(options, bench, log, stage):
         shutil.rmtree(folder, ignore_errors=True)
 
 
-def processor():
-    for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines():
-        if line.startswith("model name"):
-            return line.split(":", 1)[1].strip()
-    return platform.machine()
-
-
 def kind_of(stage, trial_name):
     return f"{stage}, at random moments" if " at random " in trial_name else f"{stage}, at writes" if stage == "kill" else stage
 
@@ -215,7 +207,7 @@ def write_table(options, log):
         asked += f" --table {options.table}"
     command = f'make torture TORTURE="{asked.strip()}"' if asked else "make torture"
     lines = ["# Kills, failing writes, damaged files and lies", "",
-             f"`{command}`: {processor()}, {' to '.join(named)}; "
+             f"`{command}`: {tables.machine()}, {' to '.join(named)}; "
              + "trials by commit: " + ", ".join(f"{commit} {n}" for commit, n in sorted(commits.items())) + ".", "",
              "Felt: the command failed, with exit code 7 and the file's name; else the failing call was in nobody's way and the files are "
              "those of the undisturbed run. Failed: not what is [promised](../reliability.md). Of: how many trials there are, where what was asked "

@@ -1,0 +1,124 @@
+#!/usr/bin/env python3
+"""Follows the tutorials as a reader does, from their pages alone, in a fresh clone of the repository.
+
+    make test-tutorials        (or: follow.py --ripstop build-check/bin/ripstop --python build-check/python 1 3)
+
+Each tutorial is a page of docs/tutorials. Its files are written and its commands run in the order of the page. Every line of output on
+the page, and every number in its prose with three digits or more and a decimal point, must be in the output of its commands or in
+a file of the example. Writes docs/tables/tutorials.md: processor time and wall time. Exit code 1 where a page and its outputs differ.
+"""
+
+import argparse
+import os
+import pathlib
+import re
+import resource
+import subprocess
+import sys
+import tempfile
+import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+import tables  # pylint: disable=wrong-import-position
+
+COMMANDS = ("ripstop", "python3", "cp", "echo", "cat")
+NUMBER = re.compile(r"(?<![\w.])\d*\.\d+(?![\w.])")
+HEAD = ["tutorial", "commands", "numbers and lines compared", "processor s", "wall s"]
+
+
+def squeezed(text):
+    return re.sub(r"\s+", " ", text)
+
+
+class Page:
+    """A tutorial: its steps are pairs of a kind ("file", "command", "output", "prose") and a text."""
+
+    def __init__(self, path):
+        text = path.read_text()
+        self.steps, name, block = [], "", None
+        self.exit_codes = {0, *map(int, re.findall(r"exit code is (\d)", text))}
+        for line in text.splitlines():
+            if line.startswith("```"):
+                if block is not None:
+                    self.steps.append(("file", (name, "\n".join(block) + "\n")))
+                block = [] if block is None else None
+            elif block is not None:
+                block.append(line)
+            elif line.startswith("    "):
+                command = line.split()[0] in COMMANDS
+                self.steps.append(("command" if command else "output", line.strip()))
+            else:
+                name = (re.findall(r"[Ww]rite `([^`]+)`", line) or [name])[-1]
+                self.steps.append(("prose", line))
+
+    def files(self):
+        """Files of the repository that the page names."""
+        return set(re.findall(r"`(examples/[^`]+\.\w+)`", "\n".join(text for kind, text in self.steps if kind == "prose")))
+
+
+def follow(page, folder, environment):
+    """Number of commands, number of comparisons, faults, processor time [s] and wall time [s]."""
+    faults, commands, compared = [], 0, 0
+    outputs = [(folder / name).read_text() for name in sorted(page.files())]
+    begin, used = time.monotonic(), resource.getrusage(resource.RUSAGE_CHILDREN)
+    for kind, text in page.steps:
+        if kind == "file":
+            (folder / text[0]).write_text(text[1])
+            outputs.append(text[1])
+        elif kind == "command":
+            ran = subprocess.run(["sh", "-c", text], cwd=folder, env=environment, capture_output=True, text=True, check=False)
+            commands += 1
+            outputs += [text, ran.stdout, ran.stderr]
+            if ran.returncode not in page.exit_codes:
+                faults.append(f"{text}: exit code {ran.returncode}: {ran.stderr[-300:]}")
+    ended = resource.getrusage(resource.RUSAGE_CHILDREN)
+    seconds = ended.ru_utime + ended.ru_stime - used.ru_utime - used.ru_stime, time.monotonic() - begin
+    everything = squeezed("\n".join(outputs))
+    for kind, text in page.steps:
+        if kind == "output":
+            compared += 1
+            faults += [] if squeezed(text) in everything else [f"no command prints: {text}"]
+        elif kind == "prose":
+            for number in (number for number in NUMBER.findall(text) if len(number) > 3):
+                compared += 1
+                faults += [] if re.search(rf"(?<![\d.]){re.escape(number)}", everything) else [f"no command prints {number}: {text}"]
+    return commands, compared, faults, seconds
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("tutorials", nargs="*", help="their numbers; default: all. A later one may need the files of the first")
+    parser.add_argument("--ripstop", type=pathlib.Path, default=pathlib.Path("build-check/bin/ripstop"))
+    parser.add_argument("--python", type=pathlib.Path, default=pathlib.Path("build-check/python"), help="folder of the package ripstop")
+    options = parser.parse_args()
+    pages = [page for page in sorted((tables.ROOT / "docs/tutorials").glob("*.md")) if not options.tutorials or page.name[0] in options.tutorials]
+    rows = {row[0]: row for row in tables.rows_of("tutorials")}
+    failed = False
+    with tempfile.TemporaryDirectory(prefix="ripstop-tutorials-") as name:
+        clone, programs = pathlib.Path(name) / "clone", pathlib.Path(name) / "bin"
+        subprocess.run(["git", "clone", "-q", tables.ROOT, clone], check=True)
+        programs.mkdir()
+        (programs / "ripstop").symlink_to(options.ripstop.resolve())
+        (programs / "python3").symlink_to("/usr/bin/python3")
+        environment = {**os.environ, "PATH": f"{programs}:{os.environ['PATH']}", "PYTHONPATH": str(options.python.resolve()), "RIPSTOP_DATA": str(clone)}
+        first = Page(tables.ROOT / "docs/tutorials/1-first-canopy.md")
+        for kind, text in first.steps:
+            if kind == "file":
+                (clone / text[0]).write_text(text[1])
+        for path in pages:
+            commands, compared, faults, (processor, wall) = follow(Page(path), clone, environment)
+            title = path.read_text().splitlines()[0].lstrip("# ")
+            rows[title] = [title, str(commands), str(compared), f"{processor:.0f}", f"{wall:.0f}"]
+            failed = failed or bool(faults)
+            print(f"{title}: {commands} commands, {compared} compared, {processor:.0f} s of the processor, {wall:.0f} s", *faults, sep="\n  ", flush=True)
+    titles = [path.read_text().splitlines()[0].lstrip("# ") for path in sorted((tables.ROOT / "docs/tutorials").glob("*.md"))]
+    lines = ["The tutorials, followed from their pages in a fresh clone. The processor time is that of all threads of the commands; reading takes "
+             "the rest of the ten minutes. The wall time includes other work on the machine.", "",
+             *tables.table(HEAD, [rows[title] for title in titles if title in rows])]
+    if not failed:
+        tables.write("tutorials", "Times of the tutorials", "make test-tutorials", tables.here(), lines)
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
