@@ -12,6 +12,7 @@
 #include "case_options.h"
 #include "commands.h"
 #include "json_option.h"
+#include "margins.h"
 #include "number_option.h"
 #include "ripstop/core/claimed_folder.h"
 #include "ripstop/core/file.h"
@@ -54,7 +55,7 @@ void print(const RunComparison& c) {
 }
 
 void print(const MeasuredLoad& m) {
-  const auto row = [](const char* name, const std::string& text) { fmt::print("  {:<26} {}\n", name, text); };
+  const auto row = print_row;
   fmt::print("{}: {} and {}\n", m.title, m.run, m.file);
   row("time shift", fmt::format("{:+.4g} s added to the measured time: {}", m.shift, m.shift_from));
   row("peak",

@@ -12,6 +12,7 @@
 #include "case_options.h"
 #include "commands.h"
 #include "json_option.h"
+#include "margins.h"
 #include "number_option.h"
 #include "progress.h"
 #include "ripstop/core/claimed_folder.h"
@@ -32,7 +33,7 @@ struct FabricArguments {
 };
 
 void print_result(const FabricResult& r, const fs::path& folder) {
-  const auto row = [](const char* name, const std::string& text) { fmt::print("  {:<26} {}\n", name, text); };
+  const auto row = print_row;
   row("pressure load", fmt::format("{:.2f} N", r.pressure_load));
   row("line tension, axial sum", fmt::format("{:.2f} N", r.line_tension));
   row("projected diameter", fmt::format("{:.3f} m", r.size.projected_diameter));
@@ -44,11 +45,7 @@ void print_result(const FabricResult& r, const fs::path& folder) {
   }
   row("projected / nominal", ratio);
   row("skirt diameter", fmt::format("{:.3f} m", r.size.skirt_diameter));
-  row("maximum line tension", fmt::format("{:.1f} N", r.max_line_tension));
-  row("maximum von Mises stress", fmt::format("{:.0f} N/m ({})", r.stress.von_mises, r.stress.patch));
-  row("maximum yarn force",
-      fmt::format("{:.0f} N/m warp, {:.0f} N/m weft; {:.0f} % of the cloth wrinkled, {:.0f} % slack",
-                  r.stress.warp, r.stress.weft, 100 * r.stress.wrinkled, 100 * r.stress.slack));
+  print_stresses(r.max_line_tension, r.stress);
   if (!folder.empty()) row("files", folder.string() + " (canopy.png, canopy.vtp, lines.vtp, result.json)");
 }
 

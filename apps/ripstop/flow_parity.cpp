@@ -35,7 +35,7 @@ void print_header(const ParityResult& result) {
              "time, s");
 }
 
-void print_row(const ParityRow& row) {
+void print_parity(const ParityRow& row) {
   const ParityRun &theirs = row.openfoam, &ours = row.builtin;
   if (row.diverged()) {
     for (const auto& [engine, run] : {std::pair{"OpenFOAM", &theirs}, std::pair{"built-in", &ours}})
@@ -65,7 +65,7 @@ int run(const FlowParityArguments& options) {
     if (so_far.rows.empty())
       print_header(so_far);
     else
-      print_row(so_far.rows.back());
+      print_parity(so_far.rows.back());
     std::fflush(stdout);
   };
   const ParityResult result = flow_parity(settings, events);

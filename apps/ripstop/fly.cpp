@@ -40,7 +40,7 @@ std::string with_error(std::optional<double> value, std::optional<double> error,
 }
 
 void print_flight(const FlightResult& r, const fs::path& folder, double wall_time) {
-  const auto row = [](const char* name, const std::string& text) { fmt::print("  {:<26} {}\n", name, text); };
+  const auto row = print_row;
   fmt::print("\n{}\n", r.title);
   print_margins(r.margins);
   if (const auto& h = r.handover) {

@@ -106,12 +106,8 @@ void print_stages(const InflationResult& r) {
                  m.load, *m.strength, m.strength_from);
 }
 
-void result_row(const char* name, const std::string& text) {
-  fmt::print("  {:<26} {}\n", name, text);
-}
-
 void print_peaks(const InflationResult& r) {
-  const auto row = result_row;
+  const auto row = print_row;
   const InflationSettings& s = r.settings;
   row("peak load",
       fmt::format("{:.1f} N at {:.2f} ms, unfiltered{}", r.peak_load, 1000 * r.peak_time,
@@ -145,7 +141,7 @@ void print_peaks(const InflationResult& r) {
 }
 
 void print_steady_load(const InflationResult& r) {
-  const auto row = result_row;
+  const auto row = print_row;
   const double low_pass_hz = r.settings.low_pass_hz;
   row(r.steady_load ? "steady load" : "load at the end",
       fmt::format("{:.1f} N +- {:.1f} %, mean over the last fifth{}", r.summary.last_load,
@@ -170,7 +166,7 @@ void print_steady_load(const InflationResult& r) {
 }
 
 void print_result(const InflationResult& r, const fs::path& folder, double wall_time) {
-  const auto row = result_row;
+  const auto row = print_row;
   fmt::print("\n{}\n", r.title);
   print_margins(r.margins);
   print_peaks(r);

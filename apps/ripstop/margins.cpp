@@ -6,19 +6,25 @@
 #include <vector>
 
 namespace ripstop {
-namespace {
 
-void row(const char* name, const std::string& text) {
+void print_row(const char* name, const std::string& text) {
   fmt::print("  {:<26} {}\n", name, text);
 }
 
-}  // namespace
+void print_stresses(double max_line_tension, const StressPeak& stress) {
+  print_row("maximum line tension", fmt::format("{:.1f} N", max_line_tension));
+  print_row("maximum von Mises stress", fmt::format("{:.0f} N/m ({})", stress.von_mises, stress.patch));
+  print_row("maximum yarn force",
+            fmt::format("{:.0f} N/m warp, {:.0f} N/m weft; {:.0f} % of the cloth wrinkled, {:.0f} % slack",
+                        stress.warp, stress.weft, 100 * stress.wrinkled, 100 * stress.slack));
+}
 
 void print_payload(const SteadyResult& r) {
   if (!r.payload) return;
-  row("payload", fmt::format("{:.4g} kg and parachute {:.3g} kg: drag / weight {:.4f}, {} speeds computed",
-                             r.payload->mass, r.payload->parachute_mass, r.payload->drag_over_weight,
-                             r.payload->speeds));
+  print_row("payload",
+            fmt::format("{:.4g} kg and parachute {:.3g} kg: drag / weight {:.4f}, {} speeds computed",
+                        r.payload->mass, r.payload->parachute_mass, r.payload->drag_over_weight,
+                        r.payload->speeds));
 }
 
 void print_margins(const std::optional<Margins>& margins) {
@@ -29,10 +35,11 @@ void print_margins(const std::optional<Margins>& margins) {
                         m.used       ? fmt::format("{:.1f} %", 100 * *m.used)
                         : m.strength ? std::string("no load")
                                      : std::string("strength not known"));
-  row("utilisation", text);
+  print_row("utilisation", text);
   if (!margins->weakest.empty()) {
     const Margin& m = *weakest(*margins);
-    row("weakest member",
+    print_row(
+        "weakest member",
         fmt::format(
             "{}: load {:.4g} {}, strength {:.4g} {}, {:.0f} % of it allowable; margin of safety {:+.2f}{}",
             m.member, m.load, m.unit, *m.strength, m.unit, 100 * m.knock_down, *m.margin,

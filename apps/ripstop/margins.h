@@ -1,13 +1,17 @@
-// Payload and margins of a result, as lines of its summary.
+// Lines of the summary of a result: payload, stresses and margins.
 #pragma once
 
 #include <optional>
 #include <string>
 
+#include "ripstop/canopy/stress.h"
 #include "ripstop/run/steady/steady.h"
 
 namespace ripstop {
 
+void print_row(const char* name, const std::string& text);
+/// `max_line_tension` in N.
+void print_stresses(double max_line_tension, const StressPeak& stress);
 void print_payload(const SteadyResult& result);
 void print_margins(const std::optional<Margins>& margins);
 /// ", riser: margin of safety -0.85, ALLOWABLE LOAD EXCEEDED"; empty where no strength is known.

@@ -41,10 +41,6 @@ struct SteadyArguments {
   bool json = false;
 };
 
-void print_row(const char* name, const std::string& text) {
-  fmt::print("  {:<26} {}\n", name, text);
-}
-
 void print_unsteady(const UnsteadyResult& unsteady) {
   const WindowAverage& w = unsteady.watched;
   print_row("drag in time",
@@ -91,11 +87,7 @@ void print_result(const SteadyResult& r, const Settings& resolved, const fs::pat
                       r.size.projected_area));
   row("projected diameter", fmt::format("{:.3f} m", r.size.projected_diameter));
   row("skirt diameter", fmt::format("{:.3f} m", r.size.skirt_diameter));
-  row("maximum line tension", fmt::format("{:.1f} N", r.max_line_tension));
-  row("maximum von Mises stress", fmt::format("{:.0f} N/m ({})", r.stress.von_mises, r.stress.patch));
-  row("maximum yarn force",
-      fmt::format("{:.0f} N/m warp, {:.0f} N/m weft; {:.0f} % of the cloth wrinkled, {:.0f} % slack",
-                  r.stress.warp, r.stress.weft, 100 * r.stress.wrinkled, 100 * r.stress.slack));
+  print_stresses(r.max_line_tension, r.stress);
   print_payload(r);
   print_margins(r.margins);
   row("force balance",

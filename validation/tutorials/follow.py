@@ -92,8 +92,7 @@ def main():
     parser.add_argument("--python", type=pathlib.Path, default=pathlib.Path("build-check/python"), help="folder of the package ripstop")
     options = parser.parse_args()
     pages = [page for page in sorted((tables.ROOT / "docs/tutorials").glob("*.md")) if not options.tutorials or page.name[0] in options.tutorials]
-    rows = {row[0]: row for row in tables.rows_of("tutorials")}
-    failed = False
+    new, failed = {}, False
     with tempfile.TemporaryDirectory(prefix="ripstop-tutorials-") as name:
         clone, programs = pathlib.Path(name) / "clone", pathlib.Path(name) / "bin"
         subprocess.run(["git", "clone", "-q", tables.ROOT, clone], check=True)
@@ -108,10 +107,11 @@ def main():
         for path in pages:
             commands, compared, faults, (processor, wall) = follow(Page(path), clone, environment)
             title = path.read_text().splitlines()[0].lstrip("# ")
-            rows[title] = [title, str(commands), str(compared), f"{processor:.0f}", f"{wall:.0f}"]
+            new[title] = [title, str(commands), str(compared), f"{processor:.0f}", f"{wall:.0f}"]
             failed = failed or bool(faults)
             print(f"{title}: {commands} commands, {compared} compared, {processor:.0f} s of the processor, {wall:.0f} s", *faults, sep="\n  ", flush=True)
     titles = [path.read_text().splitlines()[0].lstrip("# ") for path in sorted((tables.ROOT / "docs/tutorials").glob("*.md"))]
+    rows = {row[0]: row for row in tables.rows_of("tutorials")} | new
     lines = ["The tutorials, followed from their pages in a fresh clone. The processor time is that of all threads of the commands; reading takes "
              "the rest of the ten minutes. The wall time includes other work on the machine.", "",
              *tables.table(HEAD, [rows[title] for title in titles if title in rows])]
