@@ -77,7 +77,7 @@ struct Bracket {
   double low = 0, high = 0, below = 0, above = 0;
 };
 
-/// The root by the Illinois method: linear interpolation, with half the value of an end that has not moved twice.
+/// The root by the Illinois method: linear interpolation, where an end that remains twice counts with half its value.
 template <class Function>
 double root_in(Bracket b, const Function& function) {
   int last = 0;  // the end that moved: -1 low, 1 high
