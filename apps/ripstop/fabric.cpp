@@ -16,6 +16,7 @@
 #include "progress.h"
 #include "ripstop/core/claimed_folder.h"
 #include "ripstop/core/error.h"
+#include "units_option.h"
 #include "warnings.h"
 
 namespace ripstop {
@@ -32,7 +33,7 @@ struct FabricArguments {
 };
 
 void print_result(const FabricResult& r, const fs::path& folder) {
-  const auto row = [](const char* name, const std::string& text) { fmt::print("  {:<26} {}\n", name, text); };
+  const auto row = [](const char* name, const std::string& text) { print_text("  {:<26} {}\n", name, text); };
   row("pressure load", fmt::format("{:.2f} N", r.pressure_load));
   row("line tension, axial sum", fmt::format("{:.2f} N", r.line_tension));
   row("projected diameter", fmt::format("{:.3f} m", r.size.projected_diameter));
@@ -90,6 +91,7 @@ void add_fabric(CLI::App& app, int& status) {
              "Uniform pressure difference over the canopy [Pa] (default: the dynamic pressure)");
   add_case_options(*command, options->overrides);
   command->add_option("--out", options->out, "Folder for result.json, a picture and files for ParaView");
+  add_units_option(*command);
   add_json_option(*command, options->json);
   command->callback([options, &status] { status = run(*options); });
 }

@@ -5,20 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "units_option.h"
+
 namespace ripstop {
-namespace {
-
-void row(const char* name, const std::string& text) {
-  fmt::print("  {:<26} {}\n", name, text);
-}
-
-}  // namespace
-
 void print_payload(const SteadyResult& r) {
   if (!r.payload) return;
-  row("payload", fmt::format("{:.4g} kg and parachute {:.3g} kg: drag / weight {:.4f}, {} speeds computed",
-                             r.payload->mass, r.payload->parachute_mass, r.payload->drag_over_weight,
-                             r.payload->speeds));
+  print_row("payload",
+            fmt::format("{:.4g} kg and parachute {:.3g} kg: drag / weight {:.4f}, {} speeds computed",
+                        r.payload->mass, r.payload->parachute_mass, r.payload->drag_over_weight,
+                        r.payload->speeds));
 }
 
 void print_margins(const std::optional<Margins>& margins) {
@@ -29,15 +24,26 @@ void print_margins(const std::optional<Margins>& margins) {
                         m.used       ? fmt::format("{:.1f} %", 100 * *m.used)
                         : m.strength ? std::string("no load")
                                      : std::string("strength not known"));
-  row("utilisation", text);
+  print_row("utilisation", text);
   if (!margins->weakest.empty()) {
     const Margin& m = *weakest(*margins);
-    row("weakest member",
+    print_row(
+        "weakest member",
         fmt::format(
             "{}: load {:.4g} {}, strength {:.4g} {}, {:.0f} % of it allowable; margin of safety {:+.2f}{}",
             m.member, m.load, m.unit, *m.strength, m.unit, 100 * m.knock_down, *m.margin,
             *m.margin < 0 ? ": ALLOWABLE LOAD EXCEEDED" : ""));
   }
+}
+
+std::string safe_speed_text(const SafeSpeed& s) {
+  if (s.unsafe_at)
+    return fmt::format("NONE: the {} exceeds its allowable load at {:.1f} m/s", s.member, *s.unsafe_at);
+  const auto text = [](const std::optional<double>& speed) {
+    return speed ? fmt::format("{:.1f}", *speed) : fmt::format("above {:g}", fastest_deployment);
+  };
+  return fmt::format("{} m/s, range {} to {} m/s, {} reaches its allowable load", text(s.speed),
+                     text(s.lowest), text(s.highest), s.member);
 }
 
 std::string weakest_text(const std::optional<Margins>& margins) {
