@@ -174,7 +174,7 @@ void add_coefficients(CLI::App& command, LoadRequest& r) {
              "Exponent of the drag area over time (default: of the canopy family)");
   add_number(command, "--impulse-integral", r.impulse_integral, above(0).up_to(1),
              "Mean over peak force during filling, for the momentum-impulse method (default: 0.5)");
-  command.add_option("--steady", r.steady, "Run folder of ripstop steady that provides the drag area")
+  command.add_option("--steady", r.steady, "Run folder of ripstop steady or fly that provides the drag area")
       ->check(CLI::ExistingDirectory);
   command
       .add_option("--opening", r.opening,

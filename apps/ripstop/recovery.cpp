@@ -131,11 +131,12 @@ void add_recovery(CLI::App& app, int& status) {
   command->add_option("--drogue", options->drogue_case, "Case file of the drogue, which opens at apogee");
   add_flight(*command, *options);
   command
-      ->add_option("--steady", r.main_steady, "Run folder of ripstop steady with the drag area of the main")
+      ->add_option("--steady", r.main_steady,
+                   "Run folder of ripstop steady or fly with the drag area of the main")
       ->check(CLI::ExistingDirectory);
   command
       ->add_option("--drogue-steady", r.drogue_steady,
-                   "Run folder of ripstop steady with the drag area of the drogue")
+                   "Run folder of ripstop steady or fly with the drag area of the drogue")
       ->check(CLI::ExistingDirectory);
   add_numbers(*command, "--section", r.sections, above(0).up_to(1e6),
               "Masses of parts that land separately, for their kinetic energy [kg]");

@@ -13,11 +13,11 @@
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/descent.h"
 #include "ripstop/flight/validity.h"
+#include "ripstop/run/descent/descent.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/opening/filling.h"
 #include "ripstop/run/opening/handbook.h"
 #include "ripstop/run/opening/opening_record.h"
-#include "ripstop/run/steady/finished_steady.h"
 
 namespace ripstop {
 namespace {
@@ -295,10 +295,11 @@ DragCoefficient opening_drag_coefficient(const Settings& resolved, const LoadReq
     return {*request.drag_coefficient, "given", usual_drag_uncertainty};
   }
   if (!request.steady.empty()) {
-    const FinishedSteady run = finished_steady(request.steady);
-    return {run.result.drag_area / nominal_area(resolved.parachute()),
-            fmt::format("steady run {}: {:.4g} m2", request.steady.string(), run.result.drag_area),
-            std::max(usual_drag_uncertainty, run.drag_uncertainty)};
+    const CarryingRun run = carrying_run(request.steady);
+    return {run.drag_area / nominal_area(resolved.parachute()),
+            fmt::format("{} {}: {:.4g} m2", run.basis == "axial" ? "steady run" : "flight",
+                        request.steady.string(), run.drag_area),
+            std::max(usual_drag_uncertainty, run.uncertainty)};
   }
   if (resolved.inflation().drag_coefficient)
     return {*resolved.inflation().drag_coefficient, "inflation.drag_coefficient of the case",

@@ -145,7 +145,7 @@ void each_member(T& r, Visit&& visit) {
 }
 std::string to_json(const LoadResult& result);
 
-/// C_D on the nominal area: that of a `request`, of its steady run, of the case (inflation.drag_coefficient), the
+/// C_D on the nominal area: that of a `request`, of its steady run or flight, of the case (inflation.drag_coefficient), the
 /// middle of the handbook's range, or the value computed by Ripstop for the family. Throws Error(usage) if none is
 /// known.
 struct DragCoefficient {
