@@ -49,7 +49,7 @@ void print_stage(const RecoveryStage& s) {
   print_row("descent rate at the end", range_text(s.descent_rate, "m/s"));
   print_row("duration", range_text(s.duration, "s"));
   print_row("drift", range_text(s.drift, "m"));
-  print_row("packed", fmt::format("{:.4g} m3, mass {:.3g} kg{}", s.packed_volume, s.mass,
+  print_row("packed", fmt::format("{:.3g} litres, mass {:.3g} kg{}", 1000 * s.packed_volume, s.mass,
                                   s.bay_length ? fmt::format(", {:.3g} m of the bay", *s.bay_length) : ""));
 }
 

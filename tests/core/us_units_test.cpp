@@ -10,7 +10,7 @@ TEST(UsUnits, FollowEveryValueWithAUnit) {
   EXPECT_EQ(with_us_units("drag 218.1 N at 20 m/s"), "drag 218.1 N (49.03 lbf) at 20 m/s (65.6 ft/s)");
   EXPECT_EQ(with_us_units("22 kg, 1.5 m2, 304.8 m"), "22 kg (48.5 lb), 1.5 m2 (16.1 ft2), 304.8 m (1000 ft)");
   EXPECT_EQ(with_us_units("75 J, 0.0254 m, 100 Pa"),
-            "75 J (55.3 ft lbf), 0.0254 m (1.00 in), 100 Pa (0.0145 psi)");
+            "75 J (55.3 ft lbf), 0.0254 m (1 in), 100 Pa (0.0145 psi)");
 }
 
 TEST(UsUnits, ConvertBothEndsOfARangeAndAnUncertainty) {

@@ -108,13 +108,13 @@ class RecoveryFlight {
     const std::size_t first = flown_.rows.size();
     append({[=](double t, double s) { return others + own(t, s); }, settled,
             opening.filling_time / steps_of_filling, ground});
-    for (std::size_t k = first; k < flown_.rows.size(); ++k) {
-      const FlightRow& row = flown_.rows[k].flight;
-      stage.peak_force = std::max(stage.peak_force, row.force * (1 - others / row.drag_area));
-    }
     if (state_.height > ground) {
       const double area = opening.drag_area;
       append({[=](double, double) { return others + area; }, longest_descent, slow_step, ground});
+    }
+    for (std::size_t k = first; k < flown_.rows.size(); ++k) {
+      const FlightRow& row = flown_.rows[k].flight;
+      stage.peak_force = std::max(stage.peak_force, row.force * (1 - others / row.drag_area));
     }
     before_ = opening.drag_area;
     stage.duration = state_.time - begin, stage.end_speed = state_.speed, stage.drift = drift_ - drift;

@@ -45,13 +45,14 @@ class LoadsAtSpeed {
 struct MethodPeak {
   double load = 0;  // largest of all stages [N]
   bool applies = true;
+  std::string note = {};
 };
 
 MethodPeak peak_of(const LoadResult& r, const std::string& method) {
   MethodPeak peak;
   for (const StageLoads& stage : r.stages)
     for (const MethodLoad& m : stage.methods)
-      if (m.method == method && m.load > peak.load) peak = {m.load, m.applies};
+      if (m.method == method && m.load > peak.load) peak = {m.load, m.applies, m.note};
   return peak;
 }
 
@@ -87,7 +88,7 @@ SafeSpeed safe_speed(const Settings& resolved, const LoadsAtSpeed& loads, const 
   }
   const MethodPeak peak =
       peak_of(loads.at(safe.unsafe_at ? slowest : safe.speed.value_or(fastest_deployment)), method);
-  safe.load = peak.load, safe.applies = peak.applies;
+  safe.load = peak.load, safe.applies = peak.applies, safe.note = peak.note;
   safe.member = least(peak.load).member;
   return safe;
 }

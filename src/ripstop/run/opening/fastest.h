@@ -20,6 +20,7 @@ struct SafeSpeed {
   std::optional<double> unsafe_at;        // lowest speed of the search, where the margin is not kept [m/s]
   double load = 0;                        // at that speed [N]
   std::string member;                     // the weakest
+  std::string note;                       // of the method at that speed
   bool applies = false;                   // the method, at that speed
 };
 template <Of<SafeSpeed> T, class Visit>
@@ -32,6 +33,7 @@ void each_member(T& s, Visit&& visit) {
   visit("load_n", s.load);
   visit("weakest_member", s.member);
   visit("applies", s.applies);
+  visit("note", s.note);
 }
 
 /// Largest speed of the search [m/s]: Mach 0.8 at sea level, up to which the coefficients are valid.
