@@ -101,7 +101,7 @@ constexpr const char* after_class =
     "            self.calls += 1\n"
     "        return self.calls > self.delay\n\n\n";
 
-/// The two dictionaries of one part: arguments and standard deviations. `others` is what remains open [m2].
+/// The two dictionaries of one part: arguments and standard deviations. `others`: drag area of a drogue that remains [m2].
 struct PartText {
   std::string arguments, deviations;
 };
