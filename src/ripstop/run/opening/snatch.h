@@ -43,7 +43,7 @@ void each_member(T& s, Visit&& visit) {
   visit("stretch_m", s.stretch);
   visit("line_load_n", s.line_load);
   visit("line_margin", s.line_margin);
-  visit("from", s.from);
+  visit("speed_difference_from", s.from);
   visit("changes", s.changes);
 }
 
