@@ -25,6 +25,7 @@ void add_photogrammetry(CLI::App& app, int& status);
 void add_compare_flight(CLI::App& app, int& status);
 void add_import(CLI::App& app, int& status);
 void add_descent(CLI::App& app, int& status);
+void add_recovery(CLI::App& app, int& status);
 void add_report(CLI::App& app, int& status);
 void add_fly(CLI::App& app, int& status);
 void add_load(CLI::App& app, int& status);

@@ -15,6 +15,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/flight/atmosphere.h"
+#include "units_option.h"
 #include "warnings.h"
 
 namespace ripstop {
@@ -31,21 +32,23 @@ struct DescentArguments {
 };
 
 void print_result(const Descent& d) {
-  fmt::print(
+  print_text(
       "{}\n  payload {:.4g} kg, parachute {:.3g} kg, drag area {:.4f} +- {:.4f} m2 (computed at {:.4g} "
       "m/s)\n",
       d.title, d.payload_mass, d.parachute_mass, d.drag_area, d.drag_area_uncertainty, d.run_speed);
-  fmt::print("  drag coefficient {:.3f} on S0, {}{}\n", d.drag_coefficient,
+  print_text("  drag coefficient {:.3f} on S0, {}{}\n", d.drag_coefficient,
              d.basis == "descent" ? "in descent (flown)" : "axial (steady flow on the axis)",
              d.known_coefficient ? fmt::format("; Knacke, in descent: {:.2f} to {:.2f}",
                                                d.known_coefficient->at(0), d.known_coefficient->at(1))
                                  : "");
-  fmt::print("{:>10} {:>9} {:>18} {:>22}\n", "height m", "air kg/m3", "speed m/s",
-             fmt::format("time to {:g} m, s", d.ground));
+  const int width = both_units() ? 18 : 10, speed_width = both_units() ? 38 : 20;
+  fmt::print("{:>{}} {:>13} {:>{}} {:>22}\n", "height", width, "air", "speed", speed_width,
+             fmt::format("time to {:g} m", d.ground));
   for (const DescentRow& row : d.rows)
-    fmt::print("{:>10.4g} {:>9.4f} {:>18} {:>22}\n", row.height, row.density,
-               fmt::format("{:.3f} +- {:.3f}", row.speed, row.speed_uncertainty),
-               row.time ? fmt::format("{:.1f} +- {:.1f}", *row.time, *row.time_uncertainty) : "-");
+    fmt::print("{:>{}} {:>13} {:>{}} {:>22}\n", in_units(fmt::format("{:.4g} m", row.height)), width,
+               fmt::format("{:.4f} kg/m3", row.density),
+               in_units(fmt::format("{:.3f} +- {:.3f} m/s", row.speed, row.speed_uncertainty)), speed_width,
+               row.time ? fmt::format("{:.1f} +- {:.1f} s", *row.time, *row.time_uncertainty) : "-");
 }
 
 int descent(const DescentArguments& options) {
@@ -82,6 +85,7 @@ void add_descent(CLI::App& app, int& status) {
   add_number(*command, "--ground", options->ground, height,
              "Height of the ground above sea level [m] (default: 0)");
   command->add_option("--out", options->out, "Folder for result.json (default: none)");
+  add_units_option(*command);
   add_json_option(*command, options->json);
   command->callback([options, &status] { status = descent(*options); });
 }

@@ -1,4 +1,4 @@
-// ripstop export: a steady run in the formats of flight simulators.
+// ripstop export: steady runs in the formats of flight simulators.
 
 #include "ripstop/run/descent/export.h"
 
@@ -7,9 +7,12 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "commands.h"
 #include "number_option.h"
+#include "reefed_stage.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 
@@ -20,20 +23,39 @@ namespace fs = std::filesystem;
 
 struct ExportArguments {
   std::string format, trigger = "apogee";
-  fs::path run, out, flight;
-  std::optional<double> deployment_speed;
-  bool force = false;
+  fs::path run, out, flight, drogue, drogue_flight;
+  std::optional<double> deployment_speed, drogue_speed;
+  std::string drogue_trigger = "apogee";
+  std::vector<std::string> reefing;
+  bool force = false, drogue_released = false;
 };
+
+ExportedParachute exported_run(const fs::path& run, std::optional<double> speed, const fs::path& flight) {
+  return exported(finished_steady(run), speed,
+                  flight.empty() ? std::nullopt : std::optional(finished_flight(flight)));
+}
+
+std::string text_of(const std::string& format, const ExportedRecovery& recovery) {
+  if (format == "rocketpy") return rocketpy_text(recovery);
+  if (format == "openrocket") return openrocket_text(recovery);
+  if (format == "openrocket-design") return openrocket_design(recovery);
+  return recovery.stages.size() == 1 ? to_json(recovery.stages[0].parachute) : to_json(recovery);
+}
 
 int export_run(const ExportArguments& options) {
   if (!options.out.empty() && fs::exists(options.out) && !options.force)
     throw Error(ExitCode::usage, fmt::format("{} exists; choose another --out, or replace it with --force",
                                              options.out.string()));
-  const auto flight = options.flight.empty() ? std::nullopt : std::optional(finished_flight(options.flight));
-  const ExportedParachute p = exported(finished_steady(options.run), options.deployment_speed, flight);
-  const std::string text = options.format == "rocketpy"     ? rocketpy_text(p, options.trigger)
-                           : options.format == "openrocket" ? openrocket_text(p)
-                                                            : to_json(p);
+  ExportedRecovery recovery;
+  recovery.drogue_released = options.drogue_released;
+  if (!options.drogue.empty())
+    recovery.stages.push_back(
+        {exported_run(options.drogue, options.drogue_speed, options.drogue_flight), options.drogue_trigger});
+  recovery.stages.push_back(
+      {exported_run(options.run, options.deployment_speed, options.flight), options.trigger});
+  for (const std::string& text : options.reefing)
+    recovery.stages.back().reefing.push_back(parse_reefed_stage(text));
+  const std::string text = text_of(options.format, recovery);
   if (options.out.empty()) {
     fmt::print("{}", text);
     return 0;
@@ -49,11 +71,18 @@ int export_run(const ExportArguments& options) {
 void add_export(CLI::App& app, int& status) {
   auto options = std::make_shared<ExportArguments>();
   CLI::App* command = app.add_subcommand(
-      "export", "Export the parachute of a steady run for RocketPy, OpenRocket or as JSON");
-  command->footer("Example: ripstop export rocketpy runs/my-canopy --trigger 300 --out parachute.py");
-  command->add_option("format", options->format, "Format: rocketpy, openrocket or json")
+      "export", "Export the parachutes of steady runs for RocketPy, OpenRocket or as JSON");
+  command->footer(
+      "Example: ripstop export rocketpy runs/my-canopy --trigger 300 --out parachute.py\n"
+      "         ripstop export openrocket-design runs/main --trigger 300 --drogue runs/drogue --out "
+      "recovery.ork");
+  command
+      ->add_option(
+          "format", options->format,
+          "Format: rocketpy, openrocket (component database .orc), openrocket-design (.ork with deployment "
+          "events) or json")
       ->required()
-      ->check(CLI::IsMember({"rocketpy", "openrocket", "json"}));
+      ->check(CLI::IsMember({"rocketpy", "openrocket", "openrocket-design", "json"}));
   command->add_option("run", options->run, "Folder of a finished run of ripstop steady")->required();
   command
       ->add_option(
@@ -62,9 +91,33 @@ void add_export(CLI::App& app, int& status) {
           "of the axial one")
       ->check(CLI::ExistingDirectory);
   command->add_option("--trigger", options->trigger,
-                      "Deployment trigger of RocketPy: apogee, or a height above ground [m]");
+                      "Deployment trigger: apogee, or a height above ground [m]");
   add_number(*command, "--deployment-speed", options->deployment_speed, above(0).up_to(1000),
              "Speed at deployment, which sets the filling time (lag) [m/s] (default: speed of the run)");
+  add_number(*command, "--drogue-speed", options->drogue_speed, above(0).up_to(1000),
+             "Speed at deployment of the drogue [m/s] (default: speed of its run)");
+  CLI::Option* drogue =
+      command
+          ->add_option("--drogue", options->drogue,
+                       "Folder of a finished run of ripstop steady of the drogue, which opens first")
+          ->check(CLI::ExistingDirectory);
+  command
+      ->add_option("--drogue-flight", options->drogue_flight, "Folder of a run of ripstop fly of the drogue")
+      ->check(CLI::ExistingDirectory)
+      ->needs(drogue);
+  command
+      ->add_option("--drogue-trigger", options->drogue_trigger,
+                   "Deployment trigger of the drogue (default: apogee)")
+      ->needs(drogue);
+  command
+      ->add_flag("--drogue-released", options->drogue_released,
+                 "The drogue leaves when the main opens (default: it remains attached)")
+      ->needs(drogue);
+  command
+      ->add_option("--reef", options->reefing,
+                   "Reefed stage SHARE:SECONDS of the parachute, as for ripstop load; repeatable, in order")
+      ->expected(1)
+      ->take_all();
   command->add_option("--out", options->out, "File (default: standard output)");
   command->add_flag("--force", options->force, "Replace an existing file");
   command->callback([options, &status] { status = export_run(*options); });

@@ -17,6 +17,7 @@
 #include "progress.h"
 #include "ripstop/core/claimed_folder.h"
 #include "ripstop/core/error.h"
+#include "units_option.h"
 #include "warnings.h"
 
 namespace ripstop {
@@ -87,6 +88,7 @@ void add_fabric(CLI::App& app, int& status) {
              "Uniform pressure difference over the canopy [Pa] (default: the dynamic pressure)");
   add_case_options(*command, options->overrides);
   command->add_option("--out", options->out, "Folder for result.json, a picture and files for ParaView");
+  add_units_option(*command);
   add_json_option(*command, options->json);
   command->callback([options, &status] { status = run(*options); });
 }

@@ -6,9 +6,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -17,8 +17,11 @@
 #include "json_option.h"
 #include "margins.h"
 #include "number_option.h"
+#include "reefed_stage.h"
 #include "ripstop/core/error.h"
 #include "ripstop/flight/atmosphere.h"
+#include "ripstop/run/opening/fastest.h"
+#include "units_option.h"
 #include "warnings.h"
 
 namespace ripstop {
@@ -29,62 +32,84 @@ namespace fs = std::filesystem;
 struct LoadArguments {
   fs::path case_file, out = "runs/load";
   Overrides overrides;
-  std::optional<double> mass, height;
+  std::optional<double> mass, height, speed;
   LoadRequest request;
   std::vector<std::string> reefing;
-  bool json = false;
+  bool json = false, fastest = false;
+  double margin = 0;
 };
-
-ReefedStage parse_stage(const std::string& text) {
-  std::istringstream in(text);
-  ReefedStage stage;
-  char colon = 0, rest = 0;
-  if (!(in >> stage.share >> colon >> stage.duration) || colon != ':' || in >> rest)
-    throw Error(ExitCode::usage, fmt::format("--reef {}: must be SHARE:SECONDS, for example --reef 0.1:3 for "
-                                             "a tenth of the drag area during 3 s",
-                                             text));
-  return stage;
-}
 
 /// The caution is printed where it differs from that of the stage before.
 void print_stage(const StageLoads& s, const std::string& known_caution) {
-  fmt::print(
+  print_text(
       "\nat {:.2f} s: {:.3g} m/s, {:.4g} m above sea level, drag area {:.3g} to {:.3g} m2\n"
       "  filling {:.3g} s (n = {:.3g}), ballistic parameter {:.3g}, mass ratio {:.3g}\n",
       s.begin, s.speed, s.height, s.drag_area_before, s.drag_area, s.filling_time, s.filling_constant,
       s.ballistic_parameter, s.mass_ratio);
-  fmt::print("  {:<18} {:>10} {:>8}  {:<8} {}\n", "method", "load N", "time s", "applies", "reason");
+  const int width = both_units() ? 24 : 10;
+  fmt::print("  {:<18} {:>{}} {:>8}  {:<8} {}\n", "method", "load", width, "time s", "applies", "reason");
   std::vector<std::string> notes;  // each is printed once, below the table
   for (const MethodLoad& m : s.methods) {
     const auto known = std::find(notes.begin(), notes.end(), m.note);
     const std::string reason = m.note.empty() ? "" : fmt::format("({})", known - notes.begin() + 1);
     if (!m.note.empty() && known == notes.end()) notes.push_back(m.note);
-    fmt::print("  {:<18} {:>10.1f} {:>8}  {:<8} {}\n", m.method, m.load,
-               m.time > 0 ? fmt::format("{:.3f}", m.time) : "-", m.applies ? "yes" : "no", reason);
+    fmt::print("  {:<18} {:>{}} {:>8}  {:<8} {}\n", m.method, in_units(fmt::format("{:.1f} N", m.load)),
+               width, m.time > 0 ? fmt::format("{:.3f}", m.time) : "-", m.applies ? "yes" : "no", reason);
   }
-  for (std::size_t i = 0; i < notes.size(); ++i) fmt::print("  ({}) {}\n", i + 1, notes[i]);
-  if (!s.caution.empty() && s.caution != known_caution) fmt::print("  filling: {}\n", s.caution);
+  for (std::size_t i = 0; i < notes.size(); ++i) print_text("  ({}) {}\n", i + 1, notes[i]);
+  if (!s.caution.empty() && s.caution != known_caution) print_text("  filling: {}\n", s.caution);
   const auto applicable =
       std::count_if(s.methods.begin(), s.methods.end(), [](const MethodLoad& m) { return m.applies; });
   if (applicable > 1)
-    fmt::print("  applicable methods: {:.1f} to {:.1f} N, spread {:.0f} %\n", s.lowest, s.highest,
+    print_text("  applicable methods: {:.1f} to {:.1f} N, spread {:.0f} %\n", s.lowest, s.highest,
                100 * s.spread);
   else if (applicable == 1)
-    fmt::print("  one applicable method: {:.1f} N\n", s.lowest);
+    print_text("  one applicable method: {:.1f} N\n", s.lowest);
   else
-    fmt::print("  no method is applicable; the infinite-mass load is an upper bound on a horizontal path\n");
+    print_text("  no method is applicable; the infinite-mass load is an upper bound on a horizontal path\n");
+}
+
+void print_snatch(const SnatchResult& s) {
+  print_text("snatch load {:.1f} N (speed difference {:.3g} m/s, {}), {:.1f} N per line{}\n", s.load,
+             s.speed_difference, s.from, s.line_load,
+             s.line_margin ? fmt::format(", breaking load / snatch load {:.2f}", *s.line_margin) : "");
+  const auto cell = [](const std::optional<double>& load) {
+    return load ? in_units(fmt::format("{:.1f} N", *load)) : std::string("breaks");
+  };
+  const int width = both_units() ? 24 : 13;
+  const auto line = [&](const std::string& part, const std::array<std::string, 4>& cells) {
+    fmt::print("  {:<18}", part);
+    for (const std::string& text : cells) fmt::print(" {:>{}}", text, width);
+    fmt::print("\n");
+  };
+  line("snatch load with", {"length / 2", "length x 2", "stiffness / 2", "stiffness x 2"});
+  for (const SnatchChange& c : s.changes)
+    line(c.part,
+         {cell(c.half_length), cell(c.double_length), cell(c.half_stiffness), cell(c.double_stiffness)});
+}
+
+void print_fastest(const FastestResult& r, const fs::path& folder) {
+  print_text("{}\n  payload {:.4g} kg, parachute {:.3g} kg, {:.4g} m above sea level\n", r.title,
+             r.payload_mass, r.parachute_mass, r.height);
+  print_text("  FASTEST SAFE DEPLOYMENT {}\n", safe_speed_text(r.design()));
+  print_text("  margin of safety {:g} of every member; uncertainty of the load {:.0f} %: {}\n\n", r.margin,
+             100 * r.load_uncertainty, r.load_uncertainty_from);
+  for (const SafeSpeed& s : r.methods)
+    print_text("  {:<18} {}; load {:.1f} N{}\n", s.method, safe_speed_text(s), s.load,
+               s.applies ? "" : "; not applicable: " + s.note);
+  print_text("{} (result.json)\n", folder.string());
 }
 
 void print_result(const LoadResult& r, const fs::path& folder) {
-  fmt::print("{}\n  payload {:.4g} kg, parachute {:.3g} kg, S0 {:.4g} m2\n", r.title, r.payload_mass,
+  print_text("{}\n  payload {:.4g} kg, parachute {:.3g} kg, S0 {:.4g} m2\n", r.title, r.payload_mass,
              r.parachute_mass, r.reference_area);
-  fmt::print(
+  print_text(
       "  C_D {:.3f}: {}\n  C_x {:.2f}: {}\n  filling distance {:.3g} D0, exponent of the drag area over time "
       "{:g} "
       "(Ludtke: {:g}): {}\n",
       r.drag_coefficient, r.drag_source, r.opening_coefficient, r.opening_source, r.filling_constant,
       r.filling_exponent, r.ludtke_exponent, r.filling_source);
-  fmt::print("  DESIGN LOAD {:.1f} N: {}; largest line load {:.2f} times the mean\n", r.design_load,
+  print_text("  DESIGN LOAD {:.1f} N: {}; largest line load {:.2f} times the mean\n", r.design_load,
              r.design_load_from, r.line_load_factor);
   print_margins(r.margins);
   std::string caution;
@@ -92,20 +117,15 @@ void print_result(const LoadResult& r, const fs::path& folder) {
     print_stage(stage, caution);
     caution = stage.caution;
   }
-  fmt::print("\npeak load of the trajectory {:.1f} N after {:.3f} s\n", r.peak_load, r.peak_time);
-  if (r.snatch)
-    fmt::print("snatch load {:.1f} N (speed difference {:.3g} m/s), {:.1f} N per line{}\n", r.snatch->load,
-               r.snatch->speed_difference, r.snatch->line_load,
-               r.snatch->line_margin
-                   ? fmt::format(", breaking load / snatch load {:.2f}", *r.snatch->line_margin)
-                   : "");
+  print_text("\npeak load of the trajectory {:.1f} N after {:.3f} s\n", r.peak_load, r.peak_time);
+  if (r.snatch) print_snatch(*r.snatch);
   if (r.steady_reached)
-    fmt::print("steady descent at {:.3g} m/s after {:.2f} s and {:.4g} m\n", r.steady_speed, r.steady_time,
+    print_text("steady descent at {:.3g} m/s after {:.2f} s and {:.4g} m\n", r.steady_speed, r.steady_time,
                r.steady_drop);
   else
-    fmt::print("steady descent is NOT reached above the ground: {:.3g} m/s at impact after {:.2f} s\n",
+    print_text("steady descent is NOT reached above the ground: {:.3g} m/s at impact after {:.2f} s\n",
                r.steady_speed, r.steady_time);
-  fmt::print("{} (force.png, speed.png, trajectory.csv, result.json)\n", folder.string());
+  print_text("{} (force.png, speed.png, trajectory.csv, result.json)\n", folder.string());
 }
 
 int load(LoadArguments& options) {
@@ -116,7 +136,21 @@ int load(LoadArguments& options) {
                 "the mass of the payload is missing: give --mass KG, or [payload] mass_kg in the case");
   request.payload_mass = options.mass ? *options.mass : *resolved.payload().mass_kg;
   request.height = options.height;
-  for (const std::string& text : options.reefing) request.reefing.push_back(parse_stage(text));
+  for (const std::string& text : options.reefing) request.reefing.push_back(parse_reefed_stage(text));
+  if (options.fastest) {
+    const FastestResult fastest = run_fastest(resolved, request, options.margin);
+    write_fastest(options.out, fastest);
+    if (options.json)
+      fmt::print("{}", to_json(fastest));
+    else
+      print_fastest(fastest, options.out);
+    print_warnings(fastest.warnings);
+    return 0;
+  }
+  if (!options.speed)
+    throw Error(ExitCode::usage,
+                "the speed is missing: give --speed M/S, or --fastest for the largest safe speed");
+  request.speed = *options.speed;
   const LoadResult result = run_load(resolved, request);
   write_load(options.out, result);
   if (options.json)
@@ -140,7 +174,7 @@ void add_coefficients(CLI::App& command, LoadRequest& r) {
              "Exponent of the drag area over time (default: of the canopy family)");
   add_number(command, "--impulse-integral", r.impulse_integral, above(0).up_to(1),
              "Mean over peak force during filling, for the momentum-impulse method (default: 0.5)");
-  command.add_option("--steady", r.steady, "Run folder of ripstop steady that provides the drag area")
+  command.add_option("--steady", r.steady, "Run folder of ripstop steady or fly that provides the drag area")
       ->check(CLI::ExistingDirectory);
   command
       .add_option("--opening", r.opening,
@@ -169,13 +203,22 @@ void add_load(CLI::App& app, int& status) {
       app.add_subcommand("load", "Estimate opening and snatch loads for a payload mass by several methods");
   command->footer(
       "Example: ripstop load examples/flat-circular/case.toml --mass 2.4 --speed 25 --height 300 --reef "
-      "0.1:2");
+      "0.1:2\n"
+      "         ripstop load examples/flat-circular/case.toml --mass 2.4 --fastest");
   command->add_option("case", options->case_file, "Case file (TOML)")->required();
   add_number(*command, "--mass", options->mass, key_range("payload.mass_kg"),
              "Mass of the payload [kg] (default: payload.mass_kg of the case)");
-  add_number(*command, "--speed", options->request.speed, above(0).up_to(1000),
-             "Airspeed at line stretch [m/s]")
-      ->required();
+  CLI::Option* speed =
+      add_number(*command, "--speed", options->speed, above(0).up_to(1000), "Airspeed at line stretch [m/s]");
+  CLI::Option* fastest =
+      command
+          ->add_flag("--fastest", options->fastest,
+                     "Find the largest airspeed at line stretch at which lines, riser and [hardware] keep "
+                     "their margin of safety, by every method")
+          ->excludes(speed);
+  add_number(*command, "--margin", options->margin, from(0).up_to(100),
+             "Margin of safety that every member keeps with --fastest (default: 0)")
+      ->needs(fastest);
   const Range height = from(lowest_height).up_to(highest_height);
   add_number(*command, "--height", options->height, height,
              "Height above sea level at line stretch [m] (default: flow.height_m if above the ground, else "
@@ -193,6 +236,7 @@ void add_load(CLI::App& app, int& status) {
   add_coefficients(*command, options->request);
   add_set_option(*command, options->overrides);
   command->add_option("--out", options->out, "Folder (default: runs/load)");
+  add_units_option(*command);
   add_json_option(*command, options->json);
   command->callback([options, &status] { status = load(*options); });
 }

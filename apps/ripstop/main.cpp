@@ -134,6 +134,7 @@ int run(int argc, char** argv) {
   add_report(app, status);
   add_fly(app, status);
   add_load(app, status);
+  add_recovery(app, status);
   add_size(app, status);
   add_export(app, status);
   add_studio(app, status);

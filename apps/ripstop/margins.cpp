@@ -5,11 +5,9 @@
 #include <string>
 #include <vector>
 
-namespace ripstop {
+#include "units_option.h"
 
-void print_row(const char* name, const std::string& text) {
-  fmt::print("  {:<26} {}\n", name, text);
-}
+namespace ripstop {
 
 void print_stresses(double max_line_tension, const StressPeak& stress) {
   print_row("maximum line tension", fmt::format("{:.1f} N", max_line_tension));
@@ -45,6 +43,16 @@ void print_margins(const std::optional<Margins>& margins) {
             m.member, m.load, m.unit, *m.strength, m.unit, 100 * m.knock_down, *m.margin,
             *m.margin < 0 ? ": ALLOWABLE LOAD EXCEEDED" : ""));
   }
+}
+
+std::string safe_speed_text(const SafeSpeed& s) {
+  if (s.unsafe_at)
+    return fmt::format("NONE: the {} exceeds its allowable load at {:.1f} m/s", s.member, *s.unsafe_at);
+  const auto text = [](const std::optional<double>& speed) {
+    return speed ? fmt::format("{:.1f}", *speed) : fmt::format("above {:g}", fastest_deployment);
+  };
+  return fmt::format("{} m/s, range {} to {} m/s, {} reaches its allowable load", text(s.speed),
+                     text(s.lowest), text(s.highest), s.member);
 }
 
 std::string weakest_text(const std::optional<Margins>& margins) {

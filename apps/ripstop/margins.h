@@ -5,15 +5,17 @@
 #include <string>
 
 #include "ripstop/canopy/stress.h"
+#include "ripstop/run/opening/fastest.h"
 #include "ripstop/run/steady/steady.h"
 
 namespace ripstop {
 
-void print_row(const char* name, const std::string& text);
 /// `max_line_tension` in N.
 void print_stresses(double max_line_tension, const StressPeak& stress);
 void print_payload(const SteadyResult& result);
 void print_margins(const std::optional<Margins>& margins);
+/// "12.3 m/s, range 11 to 14 m/s, line reaches its allowable load", or that there is none.
+std::string safe_speed_text(const SafeSpeed& safe);
 /// ", riser: margin of safety -0.85, ALLOWABLE LOAD EXCEEDED"; empty where no strength is known.
 std::string weakest_text(const std::optional<Margins>& margins);
 

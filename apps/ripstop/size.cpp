@@ -22,6 +22,7 @@
 #include "ripstop/run/steady/steady_folder.h"
 #include "steady_terminal.h"
 #include "stopping.h"
+#include "units_option.h"
 #include "warnings.h"
 
 namespace ripstop {
@@ -37,8 +38,8 @@ struct SizeArguments {
 };
 
 void print_result(const SizeResult& r, const fs::path& file, const fs::path& page) {
-  const auto row = [](const char* name, const std::string& text) { fmt::print("  {:<20} {}\n", name, text); };
-  fmt::print("{}\n", r.given.title);
+  const auto row = [](const char* name, const std::string& text) { print_text("  {:<20} {}\n", name, text); };
+  print_text("{}\n", r.given.title);
   row("air", fmt::format("{:.4g} kg/m3", r.density));
   row("drag coefficient",
       fmt::format("{:.3f} on S0, {}{}", r.drag_coefficient, r.drag_source,
@@ -231,6 +232,7 @@ void add_size(CLI::App& app, int& status) {
       ->option_text("safe|axial|descent");
   command->add_option("--out", options->out, "Case file (default: my-canopy.toml)");
   command->add_flag("--force", options->force, "Replace an existing case file");
+  add_units_option(*command);
   add_json_option(*command, options->json);
   command->callback([options, &status] { status = size(*options); });
 }

@@ -23,6 +23,7 @@
 #include "ripstop/run/steady/steady_folder.h"
 #include "steady_terminal.h"
 #include "stopping.h"
+#include "units_option.h"
 #include "warnings.h"
 
 namespace ripstop {
@@ -61,7 +62,7 @@ void print_unsteady(const UnsteadyResult& unsteady) {
 
 void print_result(const SteadyResult& r, const Settings& resolved, const fs::path& folder) {
   const auto row = print_row;
-  fmt::print("\n{}\n", r.title);
+  print_text("\n{}\n", r.title);
   row("speed, density", fmt::format("{:.4g} m/s, {:.4g} kg/m3", r.speed, r.density));
   row("approach speed",
       fmt::format("{:.4g} m/s, mean over the disk of the canopy, one diameter upstream", r.approach_speed));
@@ -113,7 +114,7 @@ int dry_run(const SteadyFolderSettings& settings, const Settings& resolved) {
   // Only the estimate of the built-in engine is reliable, and the length of an unsteady run is not known in
   // advance.
   const bool known = engine_of(resolved).word == engines().front().word && !resolved.flow().unsteady;
-  fmt::print("{}: {} nodes, {} x {} x {} cells, {:.4g} m/s{}, about {:.2g} GB{}; would run in {}\n",
+  print_text("{}: {} nodes, {} x {} x {} cells, {:.4g} m/s{}, about {:.2g} GB{}; would run in {}\n",
              resolved.title(), problem.mesh.node_count(), problem.flow.grid.nx, problem.flow.grid.ny,
              problem.flow.grid.nz, problem.flow.air.speed(),
              resolved.flow().ranks > 1 ? fmt::format(", {} ranks", resolved.flow().ranks) : "",
@@ -184,6 +185,7 @@ void add_steady(CLI::App& app, int& status) {
   command->add_flag("--fresh", options->fresh,
                     "Replace the files of Ripstop in the run folder; default: resume the run");
   command->add_flag("--dry-run", options->dry_run, "Print run folder, size and estimated time, and stop");
+  add_units_option(*command);
   add_json_option(*command, options->json);
   add_batch_options(*command, options->batch);
   command->callback([options, &status] { status = run(*options); });

@@ -29,10 +29,12 @@ void add_flight(py::module_& module) {
       "in descent\nis used.");
   add_result<ExportedParachute>(module, "ExportedParachute",
                                 "Parachute of a steady run in the terms of flight simulators.")
-      .def("rocketpy", &rocketpy_text, py::arg("trigger") = "apogee",
+      .def("rocketpy", py::overload_cast<const ExportedParachute&, const std::string&>(&rocketpy_text),
+           py::arg("trigger") = "apogee",
            "Returns Python code with the arguments of Rocket.add_parachute of RocketPy. trigger: \"apogee\", "
            "or a height above\nground [m].")
-      .def("openrocket", &openrocket_text, "Returns a component database of OpenRocket with the parachute.");
+      .def("openrocket", py::overload_cast<const ExportedParachute&>(&openrocket_text),
+           "Returns a component database of OpenRocket with the parachute.");
   module.def(
       "export",
       [](const SteadySource& run, std::optional<double> deployment_speed, const std::optional<Path>& flight) {

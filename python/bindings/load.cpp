@@ -33,6 +33,7 @@ LoadResult load(const PyCase& given, LoadRequest request, const std::optional<St
 
 void add_load(py::module_& module) {
   add_class<StageLoads>(module, "StageLoads", "Opening loads of one stage by all methods.");
+  add_class<SnatchChange>(module, "SnatchChange", "Snatch load with one part changed.");
   add_class<SnatchResult>(module, "Snatch", "Snatch load at line stretch.");
   py::class_<LoadResult> type =
       add_result<LoadResult>(module, "Load", "Opening loads for a payload mass by several methods.");

@@ -37,6 +37,7 @@ const std::map<std::string, std::vector<std::string>> commands = {
     {"descent", {"none"}},
     {"report", {"none"}},
     {"load", {stratos}},
+    {"recovery", {stratos}},
     {"size", {}},
     {"export", {"json", "none"}}};
 

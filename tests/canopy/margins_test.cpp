@@ -65,6 +65,25 @@ TEST(Margins, OfATapeAreOnItsBreakLoadWhereItHasOne) {
   EXPECT_EQ(margins_of({1, 20, {}, 0}, none, m.cloth, nullptr, m.line, m.riser).members.size(), 1u);
 }
 
+TEST(Margins, HardwareCarriesTheRisersLoadByItsOwnStrength) {
+  const Materials m;
+  HardwareParts parts;
+  parts["link"].rated_load_n = 1000;
+  parts["swivel"].breaking_load_n = 4000;
+  parts["cord"].kind = Hardware::Kind::textile, parts["cord"].breaking_load_n = 2500,
+  parts["cord"].strands = 2;
+  const MarginFactors f{2, 0.5, 0.8, 0.9, 1, 1, 1};
+  MemberLoads loads;
+  loads.hardware = 900;
+  const Margins margins = margins_of(loads, f, m.cloth, nullptr, m.line, m.riser, parts);
+  ASSERT_EQ(margins.members.size(), 4u);  // after the cloth, by name
+  EXPECT_EQ(margins.members[1].member, "cord");
+  EXPECT_DOUBLE_EQ(*margins.members[1].used, 2 * 900 / (2 * 2500 * 0.8 * 0.9));
+  EXPECT_DOUBLE_EQ(*margins.members[2].used, 0.9);  // a rated load has its own safety factor
+  EXPECT_DOUBLE_EQ(*margins.members[3].used, 2 * 900 / 4000.0);
+  EXPECT_EQ(margins.weakest, "link");
+}
+
 // A chain of one strain: 0.9 of the law in the axial spring, 0.05 in each of two springs over two.
 TEST(Margins, AChainCarriesTheSumOfItsAxialAndBendingSprings) {
   const double axial = 90;

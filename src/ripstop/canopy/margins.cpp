@@ -36,7 +36,7 @@ Margin margin_of(std::string member, double load, std::string unit, Strength str
 }  // namespace
 
 Margins margins_of(const MemberLoads& loads, const MarginFactors& f, const Fabric& cloth, const Tape* tape,
-                   const Line& line, const Line& riser) {
+                   const Line& line, const Line& riser, const HardwareParts& hardware) {
   const double all = f.abrasion * f.moisture * f.fatigue * f.temperature;
   const double sewn = all * f.seam_efficiency, joined = all * f.line_joint_efficiency;
   Margins result;
@@ -59,6 +59,13 @@ Margins margins_of(const MemberLoads& loads, const MarginFactors& f, const Fabri
     add_line("line " + std::to_string(i + 1), loads.lines[i], line);
   if (loads.riser > 0) add_line("riser", loads.riser, riser);
   for (const MemberLoads::OtherLine& other : loads.others) add_line(other.member, other.load, other.material);
+  for (const auto& [name, part] : hardware) {
+    const double one = part.rated_load_n ? *part.rated_load_n : part.breaking_load_n.value_or(0);
+    const Strength strength{part.strands * one, part.rated_load_n ? "rated load" : "breaking load"};
+    const bool textile = part.kind == Hardware::Kind::textile && !part.rated_load_n;
+    members.push_back(margin_of(name, loads.hardware, "N", strength, textile ? joined : 1,
+                                part.rated_load_n ? 1 : f.safety_factor));
+  }
   if (const Margin* least = weakest(result)) result.weakest = least->member;
   return result;
 }

@@ -1,6 +1,7 @@
 // Margin of safety of every part: its maximum load and its allowable load.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,16 @@ struct MarginFactors {
   double abrasion = 0.95, moisture = 0.95, fatigue = 0.95, temperature = 1;
 };
 
+/// [hardware.NAME]: a part in the chain from the riser to the payload, such as a swivel, a link, a harness or a shock
+/// cord. It carries the whole load of the riser.
+struct Hardware {
+  enum class Kind { metal, textile } kind = Kind::metal;
+  std::optional<double> breaking_load_n, rated_load_n;  // of one strand; one of them is given
+  int strands = 1;                                      // that share the load equally
+  std::optional<double> length_m, stiffness_n;          // of one strand; stiffness: tension over strain
+};
+using HardwareParts = std::map<std::string, Hardware>;  // by name
+
 /// The highest loads of a shape or of an opening.
 struct MemberLoads {
   double cloth = 0;           // along either yarn [N/m]
@@ -30,6 +41,7 @@ struct MemberLoads {
     Line material;
   };
   std::vector<OtherLine> others = {};
+  double hardware = 0;  // of every part of it [N]
 };
 
 struct Margin {
@@ -50,9 +62,10 @@ struct Margins {
 };
 
 /// Strength is the break load, or where a material has none, the load at the strain up to which it was tested.
-/// `tape` is null where there is none.
+/// `tape` is null where there is none. A rated load of hardware includes its maker's safety factor: the load alone is
+/// compared with it. The knock-down factors apply to the breaking load of textile hardware, as to a line.
 Margins margins_of(const MemberLoads& loads, const MarginFactors& factors, const Fabric& cloth,
-                   const Tape* tape, const Line& line, const Line& riser);
+                   const Tape* tape, const Line& line, const Line& riser, const HardwareParts& hardware = {});
 
 /// The weakest member; null when no strength is known.
 const Margin* weakest(const Margins& margins);

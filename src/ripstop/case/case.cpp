@@ -65,6 +65,9 @@ void describe(Fields& fields, Case& given) {
   fields.table("flight", given.flight, "Free flight of parachute and payload.");
   fields.table("margins", given.margins,
                "Safety and strength reduction factors for the margins of cloth, tape, lines and riser.");
+  fields.named_tables("hardware", given.hardware,
+                      "Parts between riser and payload, each with its name: swivel, links, harness, shock "
+                      "cord. Every one carries the load of the riser and is a member of the margins.");
   fields.rows("measured", given.measured,
               "Wind-tunnel conditions: state of the air, and measurements for comparison.");
 }

@@ -145,6 +145,7 @@ struct Case {
   PayloadKeys payload;
   FlightSettings flight;
   MarginFactors margins;
+  HardwareParts hardware;
   std::vector<Measured> measured;
 
   std::filesystem::path file;             // where it was read from; empty: not from a file
@@ -164,6 +165,7 @@ void describe(Fields& fields, PayloadKeys& payload);
 void describe(Fields& fields, Wind& wind);
 void describe(Fields& fields, FlightSettings& flight);
 void describe(Fields& fields, MarginFactors& margins);
+void describe(Fields& fields, Hardware& part);
 void describe(Fields& fields, Measured& measured);
 void describe(Fields& fields, Case& given);
 

@@ -109,6 +109,19 @@ void close_mouth(const Design& design, InflationSettings& inflation) {
                              smallest_radius(design, inflation.folds > 0 ? inflation.folds : lines));
 }
 
+std::vector<SnatchPart> stretching_parts(const Settings& resolved) {
+  const Design& design = resolved.parachute();
+  const PartMaterials& materials = resolved.materials();
+  std::vector<SnatchPart> parts = {
+      {"the lines", materials.line.coefficients_n, design.lines.count, design.lines.length_m}};
+  if (design.riser.length_m > 0)
+    parts.push_back({"the riser", materials.riser.coefficients_n, 1, design.riser.length_m});
+  for (const auto& [name, part] : resolved.hardware())
+    if (part.stiffness_n)
+      parts.push_back({name, {*part.stiffness_n}, part.strands, part.length_m.value_or(0)});
+  return parts;
+}
+
 PackedParachute packed_parachute(const Settings& resolved) {
   const Design& design = resolved.parachute();
   const DeploymentKeys& keys = *resolved.deployment();
@@ -125,10 +138,7 @@ PackedParachute packed_parachute(const Settings& resolved) {
   }
   p.canopy_mass = masses.cloth + masses.tape, p.canopy_length = canopy_length(design);
   p.lines_mass = masses.lines + masses.riser;
-  const PartMaterials& materials = resolved.materials();
-  p.lines = {{"the lines", materials.line.coefficients_n, design.lines.count, design.lines.length_m}};
-  if (design.riser.length_m > 0)
-    p.lines.push_back({"the riser", materials.riser.coefficients_n, 1, design.riser.length_m});
+  p.lines = stretching_parts(resolved);
   p.lines_first = keys.order == DeploymentKeys::Order::lines_first;
   take_container(resolved, masses, p);
   take_extraction(resolved, masses, p);

@@ -6,6 +6,9 @@
 
 namespace ripstop {
 
+/// The parts that stretch between canopy and payload, from the skirt on: lines, riser, and hardware with a stiffness.
+std::vector<SnatchPart> stretching_parts(const Settings& resolved);
+
 /// The packed parachute at the speed and in the air of the case. `resolved` has [deployment]. Throws Error(usage) for a
 /// container longer than lines and riser together, and for a payload of payload.mass_kg that is missing.
 PackedParachute packed_parachute(const Settings& resolved);

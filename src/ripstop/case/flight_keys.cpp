@@ -1,4 +1,4 @@
-// The keys of [payload], [flight] and [margins].
+// The keys of [payload], [flight], [margins] and [hardware].
 #include "ripstop/case/case.h"
 #include "ripstop/core/toml/fields.h"
 #include "ripstop/flight/atmosphere.h"
@@ -93,6 +93,31 @@ void describe(Fields& fields, MarginFactors& m) {
                 "checked against the print).");
   fields.number("temperature", m.temperature, above(0).up_to(1),
                 "Strength at the highest temperature of the cloth over that at 20 C (1: no heating).");
+}
+
+void describe(Fields& fields, Hardware& part) {
+  fields.choice("kind", part.kind, {{"metal", Hardware::Kind::metal}, {"textile", Hardware::Kind::textile}},
+                "\"textile\": the reduction factors of [margins] for a line apply to its breaking load. "
+                "\"metal\": only the safety factor applies.");
+  fields
+      .number("breaking_load_n", part.breaking_load_n, above(0).up_to(1e8),
+              "Load at which one strand breaks. Give this or rated_load_n.")
+      .absent("rated_load_n is given");
+  fields
+      .number("rated_load_n", part.rated_load_n, above(0).up_to(1e8),
+              "Load that the maker allows for one strand (working load limit). It includes the maker's "
+              "safety factor, so that no factor of [margins] is applied.")
+      .absent("breaking_load_n is given");
+  fields.integer("strands", part.strands, from(1).up_to(100),
+                 "Number of equal strands that share the load, such as the legs of a harness.");
+  fields
+      .number("length_m", part.length_m, above(0).up_to(1000),
+              "Length of one strand, for the snatch load; with stiffness_n.")
+      .absent("the part does not stretch");
+  fields
+      .number("stiffness_n", part.stiffness_n, above(0).up_to(1e9),
+              "Tension of one strand over its strain, for the snatch load: 1000 N at 20 % is 5000 N.")
+      .absent("the part does not stretch");
 }
 
 }  // namespace ripstop

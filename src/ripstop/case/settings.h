@@ -91,6 +91,7 @@ class Settings {
   const std::optional<DeploymentKeys>& deployment() const { return values_.written.deployment; }
   const PayloadKeys& payload() const { return values_.written.payload; }
   const FlightSettings& flight() const { return values_.written.flight; }
+  const HardwareParts& hardware() const { return values_.written.hardware; }
   const MarginFactors& margins() const { return values_.written.margins; }
   const std::vector<Measured>& measured() const { return values_.written.measured; }
   /// The row of [[measured]] for the nominal speed.

@@ -396,6 +396,21 @@ void check_inflation(const Case& given, Findings& findings) {
     check_line_nodes(given.parachute, "inflation.line_segment_m", *inflation.line_segment_m, findings);
 }
 
+void check_hardware(const Case& given, Findings& findings) {
+  for (const auto& [name, part] : given.hardware) {
+    const std::string table = "hardware." + name;
+    if (!findings.sound({table})) continue;
+    if (part.breaking_load_n.has_value() == part.rated_load_n.has_value())
+      findings.add(table, "", "",
+                   "needs its strength: give either breaking_load_n or rated_load_n (the load that the maker "
+                   "allows)");
+    if (part.length_m.has_value() != part.stiffness_n.has_value())
+      findings.add(
+          table, "", "",
+          "has one of length_m and stiffness_n: give both for its stretch in the snatch, or neither");
+  }
+}
+
 void check_deployment(const Case& given, Findings& findings) {
   if (!given.deployment) return;
   if (given.deployment->relative_speed_m_s && given.deployment->ejection_impulse_n_s &&
@@ -446,6 +461,7 @@ void check(Case& given, std::vector<Problem>& problems) {
   check_inflation(given, findings);
   check_reefing(given, findings);
   check_deployment(given, findings);
+  check_hardware(given, findings);
   check_settings(given, findings);
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 
 namespace ripstop {
@@ -27,26 +28,30 @@ Margins case_margins(const Settings& resolved, const CanopyMesh& mesh,
       loads.riser = std::max(
           loads.riser, chain_tension(spring_tensions[chain[i]], riser.bending_fraction, i, chain.size()));
   }
+  // Without a riser the lines pull at the hardware; the sum of their peaks is an upper bound of that load.
+  loads.hardware =
+      loads.riser > 0 ? loads.riser : std::accumulate(loads.lines.begin(), loads.lines.end(), 0.0);
   for (std::size_t i = 0; i < reefing_tensions.size(); ++i)
     loads.others.push_back(
         {"reefing line " + std::to_string(i + 1), reefing_tensions[i], resolved.reefing_lines()[i]});
   const std::optional<Tape>& tape = resolved.materials().tape;
   return margins_of(loads, resolved.margins(), resolved.materials().canopy, tape ? &*tape : nullptr,
-                    resolved.materials().line, riser);
+                    resolved.materials().line, riser, resolved.hardware());
 }
 
 Margins load_margins(const Settings& resolved, double load) {
   const PartMaterials& materials = resolved.materials();
   return load_margins(resolved.parachute(), resolved.margins(), materials.canopy, load, materials.line,
-                      materials.riser);
+                      materials.riser, resolved.hardware());
 }
 
 Margins load_margins(const Design& design, const MarginFactors& factors, const Fabric& cloth, double load,
-                     const Line& line, const Line& riser) {
+                     const Line& line, const Line& riser, const HardwareParts& hardware) {
   MemberLoads loads;
   loads.lines = {experience(design).line_load_factor * load / design.lines.count};
   if (design.riser.length_m > 0) loads.riser = load;
-  Margins margins = margins_of(loads, factors, cloth, nullptr, line, riser);
+  loads.hardware = load;
+  Margins margins = margins_of(loads, factors, cloth, nullptr, line, riser, hardware);
   std::erase_if(margins.members,
                 [](const Margin& m) { return m.member == "cloth"; });  // its load is not known
   for (Margin& m : margins.members)

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <sstream>
 
 #include "ripstop/case/openrocket_import.h"
 #include "ripstop/core/error.h"
@@ -115,6 +116,135 @@ TEST_F(Export, OpenRocketsComponentIsImportedAsTheSameDevice) {
   EXPECT_NEAR(back.materials().line.linear_density_kg_m, p.line_density, 1e-9);
   const double drag_area = back.inflation().drag_coefficient.value() * nominal_area(back.parachute());
   EXPECT_NEAR(drag_area / p.drag_area, 1, 1e-8);
+}
+
+/// Drogue at apogee, main at 300 m, first reefed to a quarter of its drag area for 5 s.
+ExportedRecovery two_stages(const ExportedParachute& parachute) {
+  ExportedRecovery recovery;
+  ExportedParachute drogue = parachute;
+  drogue.drag_area *= 0.1, drogue.drag_area_deviation *= 0.1, drogue.nominal_area *= 0.1;
+  drogue.nominal_diameter *= std::sqrt(0.1), drogue.radius *= std::sqrt(0.1), drogue.lag = 0.2;
+  recovery.stages = {{drogue, "apogee"}, {parachute, "300", {{0.25, 5}}}};
+  recovery.stages[1].parachute.lag = 1.2;
+  return recovery;
+}
+
+// RocketPy evaluates triggers at its sampling rate with pressure, height and state, and uses the last opened drag area.
+TEST_F(Export, RocketPyHasDrogueReefedMainAndDisreefInTime) {
+  const std::string script = R"(
+import sys
+space = {}
+exec(compile(open(sys.argv[1]).read(), "parachutes.py", "exec"), space)
+class Rocket:
+    def add_parachute(self, name, cd_s, trigger, sampling_rate, lag, noise, radius, height, porosity, drag_coefficient):
+        assert abs(drag_coefficient * 3.141592653589793 * radius**2 / cd_s - 1) < 1e-12
+        return (name, cd_s, trigger, lag, sampling_rate)
+added = space["add_to"](Rocket())
+drogue, reefed, main = added
+after = main[2]
+rate = main[4]
+state = [0, 0, 0, 0, 0, 10]
+for flight in range(2):  # the second flight begins anew
+    state[5] = 10
+    assert not any(after(0, h, state) for h in range(0, 1000))
+    state[5] = -20
+    calls, h = 0, 1000.0
+    while not after(0, h, state):
+        h -= 20 / rate
+        calls += h < 300
+    print(calls / rate)
+for one in added: print(one[1], one[3])
+for one in space["deviations"]: print(one["cd_s"], one["lag"])
+print(drogue[2], reefed[2])
+)";
+  const ExportedRecovery recovery = two_stages(parachute());
+  std::istringstream output(python(script, rocketpy_text(recovery)));
+  const double area = parachute().drag_area, deviation = parachute().drag_area_deviation;
+  const double lag = std::sqrt(0.25) * 1.2, rest = std::sqrt(0.75) * 1.2;
+  const double expected[] = {5,
+                             5,
+                             0.1 * area,
+                             0.2,
+                             0.35 * area,
+                             lag,
+                             1.1 * area,
+                             rest,
+                             0.1 * deviation,
+                             recovery.stages[0].parachute.lag_deviation,
+                             std::hypot(0.1, 0.25) * deviation};
+  for (const double value : expected) {
+    double printed = 0;
+    ASSERT_TRUE(output >> printed);
+    EXPECT_NEAR(printed, value, 0.03 * value + 1e-9);
+  }
+  ExportedRecovery released = recovery;
+  released.drogue_released = true;
+  EXPECT_NE(rocketpy_text(released).find(fmt::format("cd_s={},", area)), std::string::npos);
+  ExportedRecovery hasty = recovery;
+  hasty.stages[1].reefing[0].duration = 0.5;
+  EXPECT_THROW(rocketpy_text(hasty), Error);
+}
+
+// OpenRocket adds the drag areas of all devices that are open.
+TEST_F(Export, OpenRocketsDesignHasTheSameDragAreasAfterEveryEvent) {
+  write_file(folder_->path / "two.ork", openrocket_design(two_stages(parachute())));
+  const OpenRocketFile file = read_openrocket(folder_->path / "two.ork");
+  ASSERT_EQ(file.devices.size(), 3u);
+  const auto area = [](const RecoveryDevice& d) {
+    return *d.drag_coefficient * std::numbers::pi / 4 * *d.diameter * *d.diameter;
+  };
+  const double whole = parachute().drag_area;
+  EXPECT_NEAR(area(file.devices[0]) / (0.1 * whole), 1, 1e-9);
+  EXPECT_NEAR(area(file.devices[1]) / (0.25 * whole), 1, 1e-9);
+  EXPECT_NEAR((area(file.devices[1]) + area(file.devices[2])) / whole, 1, 1e-9);
+  EXPECT_EQ(file.devices[0].event, "apogee");
+  EXPECT_EQ(file.devices[1].event, "altitude");
+  EXPECT_EQ(file.devices[2].altitude, 300);
+  EXPECT_NEAR(*file.devices[0].delay, 0.2, 1e-12);
+  EXPECT_NEAR(*file.devices[2].delay, 5 + std::sqrt(0.75) * 1.2, 1e-12);
+  EXPECT_NEAR(*file.devices[1].mass, parachute().mass, 1e-12);
+  EXPECT_EQ(*file.devices[2].mass, 0);
+  ExportedRecovery released = two_stages(parachute());
+  released.drogue_released = true;
+  EXPECT_THROW(openrocket_design(released), Error);
+}
+
+// File, case, run, file: the same device with the same deployment.
+TEST_F(Export, ADeviceOfOpenRocketComesBackFromItsCaseAsTheSameDevice) {
+  const double diameter = 1.5, coefficient = 0.62;
+  write_file(
+      folder_->path / "given.ork",
+      fmt::format("<openrocket version=\"1.8\"><rocket><name>R</name><subcomponents><stage><name>S</name>"
+                  "<subcomponents><parachute><name>Main</name><cd>{}</cd>"
+                  "<material type=\"surface\" density=\"0.06\">cloth</material>"
+                  "<deployevent>altitude</deployevent><deployaltitude>250</deployaltitude>"
+                  "<deploydelay>0</deploydelay><diameter>{}</diameter><linecount>10</linecount>"
+                  "<linelength>1.8</linelength><linematerial type=\"line\" density=\"0.002\">cord"
+                  "</linematerial></parachute></subcomponents></stage></subcomponents></rocket></openrocket>",
+                  coefficient, diameter));
+  const OpenRocketFile file = read_openrocket(folder_->path / "given.ork");
+  const RecoveryDevice& given = file.devices.at(0);
+  FinishedSteady run = finished_steady(folder_->path / "run");  // a run of the case has its drag area
+  run.resolved = resolve(parse_case(import_openrocket(file, given, {}, "given.ork").case_text, "main.toml"));
+  run.result.title = run.resolved.title();
+  run.result.reference_area = nominal_area(run.resolved.parachute());
+  run.result.drag_coefficient = run.resolved.inflation().drag_coefficient.value();
+  run.result.drag_area = run.result.drag_coefficient * run.result.reference_area;
+  ExportedRecovery recovery;
+  recovery.stages = {{exported(run), "250"}};
+  write_file(folder_->path / "back.ork", openrocket_design(recovery));
+  const OpenRocketFile again = read_openrocket(folder_->path / "back.ork");
+  ASSERT_EQ(again.devices.size(), 1u);
+  const RecoveryDevice& back = again.devices[0];
+  EXPECT_EQ(back.name, given.name);
+  EXPECT_NEAR(*back.diameter / *given.diameter, 1, 1e-6);
+  EXPECT_NEAR(*back.drag_coefficient / *given.drag_coefficient, 1, 1e-6);
+  EXPECT_EQ(back.line_count, given.line_count);
+  EXPECT_NEAR(*back.line_length, *given.line_length, 1e-9);
+  EXPECT_NEAR(*back.cloth_density, *given.cloth_density, 1e-9);
+  EXPECT_NEAR(*back.line_density, *given.line_density, 1e-9);
+  EXPECT_EQ(back.event, given.event);
+  EXPECT_EQ(back.altitude, given.altitude);
 }
 
 TEST_F(Export, EveryNumberIsThatOfTheRunOrOfItsDesign) {

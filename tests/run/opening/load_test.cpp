@@ -395,8 +395,8 @@ TEST(Load, TheSnatchOfAPackedCanopyFollowsFromHowItIsSlowed) {
                   {{"", suspension_line(given).coefficients_n, design.lines.count, design.lines.length_m},
                    {"", riser_line(given).coefficients_n, 1, 0.5}});
   EXPECT_DOUBLE_EQ(r.snatch->load, load.load);
-  EXPECT_DOUBLE_EQ(r.snatch->time, load.time);
-  EXPECT_DOUBLE_EQ(r.snatch->stretch, load.stretch);
+  EXPECT_DOUBLE_EQ(*r.snatch->time, load.time);
+  EXPECT_DOUBLE_EQ(*r.snatch->stretch, load.stretch);
   EXPECT_DOUBLE_EQ(r.snatch->line_load, load.load / design.lines.count);
   EXPECT_DOUBLE_EQ(r.snatch->line_margin.value(), 400 / r.snatch->line_load);
 }

@@ -1,4 +1,4 @@
-// A steady run in the formats of flight simulators: `ripstop export`.
+// Steady runs in the formats of flight simulators, as one parachute or as drogue and main: `ripstop export`.
 #pragma once
 
 #include <array>
@@ -8,6 +8,7 @@
 
 #include "ripstop/core/members.h"
 #include "ripstop/run/flight/finished_flight.h"
+#include "ripstop/run/opening/load.h"
 #include "ripstop/run/steady/finished_steady.h"
 
 namespace ripstop {
@@ -16,6 +17,7 @@ namespace ripstop {
 struct ExportedParachute {
   std::string title, run;
   double drag_area = 0, drag_area_uncertainty = 0;  // [m2]
+  double drag_area_deviation = 0;                   // standard deviation for a dispersion analysis [m2]
   double nominal_diameter = 0, nominal_area = 0, drag_coefficient = 0;
   std::string drag_coefficient_on;  // the member that is its reference area
   std::string basis;                // "axial": of the steady run; "descent": of the flight
@@ -24,7 +26,8 @@ struct ExportedParachute {
   double porosity = 0;            // open share of the surface as constructed
   double lag = 0;                 // from the trigger to the full drag area [s]
   std::string lag_from;
-  double mass = 0;  // [kg]
+  double lag_deviation = 0;  // standard deviation [s]
+  double mass = 0;           // [kg]
   int gores = 0, line_count = 0;
   double line_length = 0, line_density = 0, cloth_density = 0;  // [m], [kg/m], [kg/m2]
   std::string line_material, cloth_material;
@@ -37,6 +40,7 @@ void each_member(T& p, Visit&& visit) {
   visit("run", p.run);
   visit("drag_area_m2", p.drag_area);
   visit("drag_area_uncertainty_m2", p.drag_area_uncertainty);
+  visit("drag_area_deviation_m2", p.drag_area_deviation);
   visit("nominal_diameter_m", p.nominal_diameter);
   visit("nominal_area_m2", p.nominal_area);
   visit("drag_coefficient", p.drag_coefficient);
@@ -48,6 +52,7 @@ void each_member(T& p, Visit&& visit) {
   visit("porosity", p.porosity);
   visit("lag_s", p.lag);
   visit("lag_from", p.lag_from);
+  visit("lag_deviation_s", p.lag_deviation);
   visit("mass_kg", p.mass);
   visit("gores", p.gores);
   visit("line_count", p.line_count);
@@ -67,11 +72,48 @@ std::string to_json(const ExportedParachute& parachute);
 ExportedParachute exported(const FinishedSteady& run, std::optional<double> deployment_speed = {},
                            const std::optional<FinishedFlight>& flight = {});
 
-/// Python: the arguments of RocketPy's Rocket.add_parachute (1.12), as a dictionary and a call. `trigger` is "apogee"
-/// or a height above the ground in metres. Throws Error(usage) for another one.
+/// One parachute of a recovery, with its deployment.
+struct ExportedStage {
+  ExportedParachute parachute;
+  std::string trigger = "apogee";  // or a height above the ground in metres
+  std::vector<ReefedStage> reefing = {};
+};
+template <Of<ExportedStage> T, class Visit>
+void each_member(T& s, Visit&& visit) {
+  visit("trigger", s.trigger);
+  visit("parachute", s.parachute);
+}
+
+/// One parachute, or drogue and main in the order of their opening.
+struct ExportedRecovery {
+  std::vector<ExportedStage> stages;
+  bool drogue_released = false;  // when the main opens; else it remains attached, and its drag area is added
+};
+template <Of<ExportedRecovery> T, class Visit>
+void each_member(T& r, Visit&& visit) {
+  visit("stages", r.stages);
+  visit("drogue_released", r.drogue_released);
+}
+std::string to_json(const ExportedRecovery& recovery);
+
+/// Standard deviations for a dispersion analysis (assumed): half of usual_drag_uncertainty, or the uncertainty of the run
+/// where that is larger; of the filling time a third.
+inline constexpr double lag_scatter = 1.0 / 3;
+
+/// Python: the arguments of RocketPy's Rocket.add_parachute and of StochasticParachute, and functions that add them.
+/// RocketPy uses the drag area of the parachute that opened last, so that of a drogue which remains attached is added to
+/// that of the main. A reefed stage is a parachute of its own; a disreef is triggered by the time since its trigger.
+/// Throws Error(usage) for a trigger that is none, and for a reefed stage shorter than its filling time.
+std::string rocketpy_text(const ExportedRecovery& recovery);
 std::string rocketpy_text(const ExportedParachute& parachute, const std::string& trigger);
 
-/// A component database of OpenRocket with the parachute and its materials: an .orc file.
+/// A component database of OpenRocket with the parachutes and their materials: an .orc file.
+std::string openrocket_text(const ExportedRecovery& recovery);
 std::string openrocket_text(const ExportedParachute& parachute);
+
+/// A design of OpenRocket, an .ork file: a body tube with the parachutes and their deployment events. OpenRocket adds the
+/// drag areas of all devices that are open; a disreef is therefore a second device with the rest of the drag area. The
+/// delay of a device is its filling time. Throws as rocketpy_text(), and for a drogue that is released.
+std::string openrocket_design(const ExportedRecovery& recovery);
 
 }  // namespace ripstop

@@ -13,11 +13,11 @@
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/descent.h"
 #include "ripstop/flight/validity.h"
+#include "ripstop/run/descent/descent.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/opening/filling.h"
 #include "ripstop/run/opening/handbook.h"
 #include "ripstop/run/opening/opening_record.h"
-#include "ripstop/run/steady/finished_steady.h"
 
 namespace ripstop {
 namespace {
@@ -69,6 +69,7 @@ void choose_coefficients(const Settings& resolved, const LoadRequest& request, L
   r.nominal_diameter = nominal_diameter(resolved.parachute());
   DragCoefficient drag = opening_drag_coefficient(resolved, request);
   r.drag_coefficient = drag.value, r.drag_source = std::move(drag.from);
+  r.drag_uncertainty = drag.uncertainty;
   r.opening_coefficient = request.opening_coefficient.value_or(known.opening_coefficient);
   r.opening_source = request.opening_coefficient ? "given" : known.opening_source;
   require_positive("opening coefficient C_x", r.opening_coefficient);
@@ -282,28 +283,6 @@ void choose_design_load(const Settings& resolved, const LoadRequest& request, Lo
     r.warnings.push_back(text);
 }
 
-SnatchResult snatch_of(const Settings& resolved, const LoadRequest& request, const LoadResult& r) {
-  const Design& design = resolved.parachute();
-  const Line& line = resolved.materials().line;
-  std::vector<SnatchPart> parts = {
-      {"the lines", line.coefficients_n, design.lines.count, design.lines.length_m}};
-  if (design.riser.length_m > 0)
-    parts.push_back({"the riser", resolved.materials().riser.coefficients_n, 1, design.riser.length_m});
-  SnatchResult snatch;
-  snatch.speed_difference =
-      request.snatch_speed
-          ? *request.snatch_speed
-          : speed_difference_at_stretch(
-                {r.payload_mass, request.payload_drag_area.value_or(resolved.payload().drag_area_m2)},
-                {r.parachute_mass, *request.packed_drag_area}, request.speed, standard_air(r.height).density,
-                design.lines.length_m + design.riser.length_m);
-  const SnatchLoad load = snatch_load(r.payload_mass, r.parachute_mass, snatch.speed_difference, parts);
-  snatch.load = load.load, snatch.time = load.time, snatch.stretch = load.stretch;
-  snatch.line_load = load.strand_load.front();
-  if (line.break_load_n > 0) snatch.line_margin = line.break_load_n / snatch.line_load;
-  return snatch;
-}
-
 }  // namespace
 
 std::string to_json(const LoadResult& result) {
@@ -313,22 +292,31 @@ std::string to_json(const LoadResult& result) {
 DragCoefficient opening_drag_coefficient(const Settings& resolved, const LoadRequest& request) {
   if (request.drag_coefficient) {
     require_positive("drag coefficient", *request.drag_coefficient);
-    return {*request.drag_coefficient, "given"};
+    return {*request.drag_coefficient, "given", usual_drag_uncertainty};
   }
   if (!request.steady.empty()) {
-    const FinishedSteady run = finished_steady(request.steady);
-    return {run.result.drag_area / nominal_area(resolved.parachute()),
-            fmt::format("steady run {}: {:.4g} m2", request.steady.string(), run.result.drag_area)};
+    const CarryingRun run = carrying_run(request.steady);
+    return {run.drag_area / nominal_area(resolved.parachute()),
+            fmt::format("{} {}: {:.4g} m2", run.basis == "axial" ? "steady run" : "flight",
+                        request.steady.string(), run.drag_area),
+            std::max(usual_drag_uncertainty, run.uncertainty)};
   }
   if (resolved.inflation().drag_coefficient)
-    return {*resolved.inflation().drag_coefficient, "inflation.drag_coefficient of the case"};
+    return {*resolved.inflation().drag_coefficient, "inflation.drag_coefficient of the case",
+            usual_drag_uncertainty};
   const KnownRange known = experience(resolved.parachute()).drag_coefficient;
   if (known.high > 0)
     return {0.5 * (known.low + known.high),
-            fmt::format("middle of {:.2f} to {:.2f} (Knacke)", known.low, known.high)};
+            fmt::format("middle of {:.2f} to {:.2f} (Knacke)", known.low, known.high),
+            std::max(usual_drag_uncertainty, (known.high - known.low) / (known.high + known.low))};
   throw Error(ExitCode::usage,
               "no drag coefficient of this family is known: give --drag-coefficient, --steady RUN or "
               "inflation.drag_coefficient in the case");
+}
+
+double slowest_opening(double mass, double drag_area, double height, double path_angle) {
+  const double along = std::sin(path_angle * std::numbers::pi / 180);
+  return along > 0 ? std::sqrt(along) * terminal_speed(mass, drag_area, standard_air(height).density) : 0;
 }
 
 LoadResult run_load(const Settings& resolved, const LoadRequest& request) {
@@ -339,22 +327,18 @@ LoadResult run_load(const Settings& resolved, const LoadRequest& request) {
   r.parachute_mass = parachute_mass(resolved);
   r.height = deployment_height(resolved, request);
   choose_coefficients(resolved, request, r);
-  const double descent =
-      terminal_speed(r.payload_mass + r.parachute_mass, r.drag_coefficient * r.reference_area,
-                     standard_air(r.height).density);
-  // On a path downwards weight exceeds the drag of the open canopy, whose load then grows until it is the weight.
-  const double along = std::sin(request.path_angle * std::numbers::pi / 180);
-  if (along > 0 && request.speed * request.speed <= along * descent * descent)
+  const double mass = r.payload_mass + r.parachute_mass, area = r.drag_coefficient * r.reference_area;
+  if (request.speed <= slowest_opening(mass, area, r.height, request.path_angle))
     throw Error(
         ExitCode::usage,
         fmt::format(
             "a descent rate of {:.3g} m/s is above the {:.3g} m/s of the deployment: the payload still "
             "accelerates under the open canopy; take a higher speed, a smaller mass or a larger canopy",
-            descent, request.speed));
+            terminal_speed(mass, area, standard_air(r.height).density), request.speed));
   fly_stages(request, r);
   if (!request.opening.empty()) fly_record(resolved, request, r);
   choose_design_load(resolved, request, r);
-  if (request.snatch_speed || request.packed_drag_area) r.snatch = snatch_of(resolved, request, r);
+  r.snatch = snatch_of(resolved, request, r);
   return r;
 }
 

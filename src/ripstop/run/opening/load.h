@@ -9,10 +9,10 @@
 #include "ripstop/case/settings.h"
 #include "ripstop/core/members.h"
 #include "ripstop/flight/opening_load.h"
-#include "ripstop/flight/snatch.h"
 #include "ripstop/flight/trajectory.h"
 #include "ripstop/run/margins.h"
 #include "ripstop/run/opening/method_load.h"
+#include "ripstop/run/opening/snatch.h"
 
 namespace ripstop {
 
@@ -88,21 +88,6 @@ void each_member(T& s, Visit&& visit) {
   visit("spread", s.spread);
 }
 
-struct SnatchResult {
-  double speed_difference = 0, load = 0, time = 0, stretch = 0;  // [m/s], [N], [s], [m]
-  double line_load = 0;                                          // of one line [N]
-  std::optional<double> line_margin;                             // its break load over that
-};
-template <Of<SnatchResult> T, class Visit>
-void each_member(T& s, Visit&& visit) {
-  visit("speed_difference_m_s", s.speed_difference);
-  visit("load_n", s.load);
-  visit("time_s", s.time);
-  visit("stretch_m", s.stretch);
-  visit("line_load_n", s.line_load);
-  visit("line_margin", s.line_margin);
-}
-
 /// result.json of `ripstop load`.
 struct LoadResult {
   std::string title;
@@ -111,6 +96,7 @@ struct LoadResult {
   double nominal_diameter = 0, reference_area = 0;  // [m], [m2]
   double drag_coefficient = 0, opening_coefficient = 0, filling_constant = 0, filling_exponent = 0;
   double ludtke_exponent = 0;
+  double drag_uncertainty = 0;  // of the drag coefficient, relative
   std::string drag_source, opening_source, filling_source;
   std::vector<StageLoads> stages;
   double design_load = 0;                  // load for which lines and riser are to be designed [N]
@@ -135,6 +121,7 @@ void each_member(T& r, Visit&& visit) {
   visit("reference_area_m2", r.reference_area);
   visit("drag_coefficient", r.drag_coefficient);
   visit("drag_coefficient_from", r.drag_source);
+  visit("drag_coefficient_uncertainty", r.drag_uncertainty);
   visit("opening_coefficient", r.opening_coefficient);
   visit("opening_coefficient_from", r.opening_source);
   visit("filling_constant", r.filling_constant);
@@ -158,14 +145,22 @@ void each_member(T& r, Visit&& visit) {
 }
 std::string to_json(const LoadResult& result);
 
-/// C_D on the nominal area: that of a `request`, of its steady run, of the case (inflation.drag_coefficient), the
+/// C_D on the nominal area: that of a `request`, of its steady run or flight, of the case (inflation.drag_coefficient), the
 /// middle of the handbook's range, or the value computed by Ripstop for the family. Throws Error(usage) if none is
 /// known.
 struct DragCoefficient {
   double value = 0;
   std::string from;
+  double uncertainty = 0;  // relative
 };
+/// Relative uncertainty of a drag coefficient whose own is smaller or not known (assumed; the rates of descent of a flight
+/// on two grids differ by 4 %, hence its coefficients by 8 %: docs/guide/fly.md).
+inline constexpr double usual_drag_uncertainty = 0.1;
 DragCoefficient opening_drag_coefficient(const Settings& resolved, const LoadRequest& request);
+
+/// On a path downwards, the speed at line stretch below which the weight along the path exceeds the drag of the open
+/// canopy, so that the payload still accelerates; else 0 [m/s]. Arguments: [kg], [m2], above sea level [m], [deg].
+double slowest_opening(double mass, double drag_area, double height, double path_angle);
 
 /// Throws Error(usage) for quantities that are not above 0, a descent rate above the deployment speed, stages
 /// that do not grow, and inputs that finished_steady() and standard_air() refuse.

@@ -1,0 +1,154 @@
+// ripstop recovery: from apogee to the ground under a drogue and a main, or under one parachute.
+
+#include "ripstop/run/descent/recovery.h"
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "case_options.h"
+#include "commands.h"
+#include "json_option.h"
+#include "margins.h"
+#include "number_option.h"
+#include "ripstop/core/error.h"
+#include "ripstop/flight/atmosphere.h"
+#include "ripstop/run/sizing/pattern.h"
+#include "units_option.h"
+#include "warnings.h"
+
+namespace ripstop {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RecoveryArguments {
+  fs::path main_case, drogue_case, out = "runs/recovery";
+  Overrides overrides;
+  std::optional<double> mass;
+  RecoveryRequest request;
+  bool json = false;
+};
+
+std::string range_text(const Ranged& r, const char* unit) {
+  return fmt::format("{:.4g} {}, range {:.4g} to {:.4g} {}", r.value, unit, r.low, r.high, unit);
+}
+
+void print_stage(const RecoveryStage& s) {
+  print_text("\n{}: {}\n", s.name, s.title);
+  print_row("drag", fmt::format("C_D {:.3f} +- {:.0f} % on S0 = {:.4g} m2, drag area {:.4g} m2: {}",
+                                s.drag_coefficient, 100 * s.drag_uncertainty, s.reference_area,
+                                s.drag_coefficient * s.reference_area, s.drag_source));
+  print_row("opening", fmt::format("{:.2f} s after apogee, {:.4g} m above the ground, at {}", s.time,
+                                   s.height, range_text(s.speed, "m/s")));
+  print_row("opening load", fmt::format("{:.4g} to {:.4g} N by the applicable methods; filling time {:.3g} s",
+                                        s.lowest_load, s.highest_load, s.filling_time));
+  print_row("design load", fmt::format("{:.4g} N: {}", s.design_load, s.design_load_from));
+  print_margins(s.margins);
+  print_row("fastest safe deployment", safe_speed_text(s.safe));
+  print_row("descent rate at the end", range_text(s.descent_rate, "m/s"));
+  print_row("duration", range_text(s.duration, "s"));
+  print_row("drift", range_text(s.drift, "m"));
+  print_row("packed", fmt::format("{:.3g} litres, mass {:.3g} kg{}", 1000 * s.packed_volume, s.mass,
+                                  s.bay_length ? fmt::format(", {:.3g} m of the bay", *s.bay_length) : ""));
+}
+
+void print_result(const RecoveryResult& r, const fs::path& folder) {
+  print_text("{}\n  {:.4g} kg and parachutes {:.3g} kg, apogee {:.5g} m above the ground at {:.4g} m\n",
+             r.title, r.mass, r.total_mass - r.mass, r.apogee, r.ground);
+  for (const RecoveryStage& stage : r.stages) print_stage(stage);
+  print_text("\nlanding\n");
+  print_row("rate of descent", range_text(r.landing_speed, "m/s"));
+  print_row("kinetic energy", range_text(r.energy, "J"));
+  for (const SectionEnergy& section : r.sections)
+    print_row("", fmt::format("section of {:.4g} kg: {}", section.mass, range_text(section.energy, "J")));
+  print_row("time since apogee", range_text(r.time, "s"));
+  print_row("drift with the wind", r.wind > 0 ? range_text(r.drift, "m") : "no wind given (--wind)");
+  print_row("path in still air", fmt::format("{:.4g} m along the flight direction at apogee", r.range));
+  print_text(
+      "Ranges: drag coefficients of both parachutes smaller or larger by their uncertainty.\n"
+      "{} (height.png, speed.png, trajectory.csv, result.json)\n",
+      folder.string());
+}
+
+int recovery(RecoveryArguments& options) {
+  const Settings main = read_settings(options.main_case, options.overrides);
+  const auto drogue =
+      options.drogue_case.empty() ? std::nullopt : std::optional(read_settings(options.drogue_case));
+  if (!options.mass && !main.payload().mass_kg)
+    throw Error(ExitCode::usage,
+                "the descending mass is missing: give --mass KG, or [payload] mass_kg in the "
+                "case of the main parachute");
+  options.request.mass = options.mass ? *options.mass : *main.payload().mass_kg;
+  const RecoveryResult result = run_recovery(main, drogue, options.request);
+  write_recovery(options.out, result);
+  if (options.json)
+    fmt::print("{}", to_json(result));
+  else
+    print_result(result, options.out);
+  print_warnings(result.warnings);
+  return 0;
+}
+
+void add_flight(CLI::App& command, RecoveryArguments& options) {
+  RecoveryRequest& r = options.request;
+  add_number(command, "--mass", options.mass, key_range("payload.mass_kg"),
+             "Mass that descends, without the parachutes [kg] (default: payload.mass_kg of the main's case)");
+  add_number(command, "--apogee", r.apogee, above(0).up_to(highest_height), "Apogee above the ground [m]")
+      ->required();
+  add_number(command, "--main-height", r.main_height, above(0).up_to(highest_height),
+             "Height above the ground at which the main opens, with a drogue [m] (default: 300)");
+  add_number(command, "--speed", r.speed, above(0).up_to(1000),
+             "Horizontal airspeed at apogee [m/s] (default: 20, assumed)");
+  add_number(command, "--delay", r.delay, from(0).up_to(1000),
+             "Time from apogee to the first opening [s] (default: 0)");
+  add_number(command, "--ground", r.ground, from(lowest_height).up_to(highest_height),
+             "Height of the ground above sea level [m] (default: 0)");
+  add_number(command, "--body-area", r.body_drag_area, from(0).up_to(1e4),
+             "Drag area of the body [m2] (default: payload.drag_area_m2 of the main's case)");
+  add_key_option(command, "--wind", "flight.wind.speed_m_s",
+                 "Speed of the wind at its reference height [m/s] (default: that of the main's case); other "
+                 "keys of the profile with --set flight.wind.KEY",
+                 options.overrides);
+  command.add_flag("--drogue-released", r.drogue_released,
+                   "The drogue leaves when the main opens (default: it remains attached)");
+}
+
+}  // namespace
+
+void add_recovery(CLI::App& app, int& status) {
+  auto options = std::make_shared<RecoveryArguments>();
+  RecoveryRequest& r = options->request;
+  CLI::App* command = app.add_subcommand(
+      "recovery",
+      "Compute the recovery of a rocket from apogee: openings, loads, margins, rates, drift, landing energy");
+  command->footer(
+      "Example: ripstop recovery main.toml --drogue drogue.toml --mass 22 --apogee 3000 --main-height 300 "
+      "--wind 5\n"
+      "         --bay-diameter '5.9 in' --units us");
+  command->add_option("case", options->main_case, "Case file of the main, or of the only parachute (TOML)")
+      ->required();
+  command->add_option("--drogue", options->drogue_case, "Case file of the drogue, which opens at apogee");
+  add_flight(*command, *options);
+  command
+      ->add_option("--steady", r.main_steady,
+                   "Run folder of ripstop steady or fly with the drag area of the main")
+      ->check(CLI::ExistingDirectory);
+  command
+      ->add_option("--drogue-steady", r.drogue_steady,
+                   "Run folder of ripstop steady or fly with the drag area of the drogue")
+      ->check(CLI::ExistingDirectory);
+  add_numbers(*command, "--section", r.sections, above(0).up_to(1e6),
+              "Masses of parts that land separately, for their kinetic energy [kg]");
+  add_number(*command, "--bay-diameter", r.bay_diameter, above(0).up_to(10),
+             "Inner diameter of the parachute bay, for the length that is needed [m]");
+  add_number(*command, "--packing-density", r.packing_density, packing_density_range,
+             "Packing density [kg/m3] (default: packed by hand)");
+  add_set_option(*command, options->overrides);
+  command->add_option("--out", options->out, "Folder (default: runs/recovery)");
+  add_units_option(*command);
+  add_json_option(*command, options->json);
+  command->callback([options, &status] { status = recovery(*options); });
+}
+
+}  // namespace ripstop

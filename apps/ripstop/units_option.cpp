@@ -1,0 +1,37 @@
+#include "units_option.h"
+
+#include <CLI/CLI.hpp>
+
+#include "ripstop/core/us_units.h"
+
+namespace ripstop {
+namespace {
+
+std::string chosen_units = "si";
+
+}  // namespace
+
+void add_units_option(CLI::App& command) {
+  command
+      .add_option("--units", chosen_units,
+                  "Units of printed results: si, or us for both SI and US customary units; files are in SI")
+      ->check(CLI::IsMember({"si", "us"}));
+}
+
+bool both_units() {
+  return chosen_units == "us";
+}
+
+std::string in_units(const std::string& text) {
+  return both_units() ? with_us_units(text) : text;
+}
+
+void print_plain(const std::string& text) {
+  fmt::print("{}", in_units(text));
+}
+
+void print_row(const char* name, const std::string& text) {
+  print_text("  {:<26} {}\n", name, text);
+}
+
+}  // namespace ripstop

@@ -1,0 +1,260 @@
+#include "ripstop/run/descent/recovery.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <utility>
+
+#include "ripstop/case/payload.h"
+#include "ripstop/core/claimed_folder.h"
+#include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
+#include "ripstop/core/positive.h"
+#include "ripstop/flight/wind.h"
+#include "ripstop/output/csv.h"
+#include "ripstop/output/plot.h"
+#include "ripstop/run/json.h"
+
+namespace ripstop {
+namespace {
+
+constexpr double longest_descent = 1e5, slow_step = 0.05, steps_of_filling = 400;  // [s], [s], -
+
+struct RecoveryCanopy {
+  std::string name;
+  const Settings& resolved;
+  DragCoefficient drag;
+  double area = 0, mass = 0;  // S0 [m2], [kg]
+};
+
+/// One flight: with `factor` times the drag coefficients.
+struct FlownStage {
+  FlightState opening;
+  LoadResult load;        // of run_load() there
+  double peak_force = 0;  // on its canopy along the trajectory [N]
+  double end_speed = 0, duration = 0, drift = 0;
+};
+struct Flown {
+  std::vector<FlownStage> stages;
+  std::vector<RecoveryRow> rows;
+};
+
+void check_recovery(const RecoveryRequest& q, bool two_stages) {
+  require_positive("mass that descends (kg)", q.mass);
+  require_positive("apogee above the ground (m)", q.apogee);
+  require_positive("airspeed at apogee (m/s)", q.speed);
+  if (!(q.delay >= 0))
+    throw Error(ExitCode::usage, fmt::format("a delay of {:g} s: must be 0 or above", q.delay));
+  if (two_stages && !(q.main_height > 0 && q.main_height < q.apogee))
+    throw Error(ExitCode::usage,
+                fmt::format("the main opens {:g} m above the ground: must be above 0 and below the apogee of "
+                            "{:g} m",
+                            q.main_height, q.apogee));
+}
+
+class RecoveryFlight {
+ public:
+  RecoveryFlight(const std::vector<RecoveryCanopy>& canopies, const RecoveryRequest& request,
+                 const Wind& wind, double body_area, double factor)
+      : canopies_(canopies), request_(request), wind_(wind), body_area_(body_area), factor_(factor) {
+    mass_ = request.mass;
+    for (const RecoveryCanopy& canopy : canopies) mass_ += canopy.mass;
+  }
+
+  Flown fly_down() {
+    state_ = {0, 0, 0, request_.ground + request_.apogee, request_.speed, 0};
+    if (request_.delay > 0)
+      append({[this](double, double) { return body_area_; }, request_.delay, 0.01, request_.ground});
+    for (std::size_t i = 0; i < canopies_.size(); ++i) {
+      if (state_.height <= request_.ground)
+        throw Error(ExitCode::usage,
+                    fmt::format("the rocket is on the ground before the {} opens; use a shorter delay or a "
+                                "higher apogee",
+                                canopies_[i].name));
+      fly_stage(i);
+    }
+    return std::move(flown_);
+  }
+
+ private:
+  LoadResult opening_load(const RecoveryCanopy& canopy) const {
+    LoadRequest asked;
+    asked.payload_mass = mass_ - canopy.mass;
+    asked.speed = state_.speed, asked.height = state_.height, asked.ground = request_.ground;
+    asked.path_angle = std::clamp(state_.path_angle, -90.0, 90.0);
+    asked.drag_coefficient = factor_ * canopy.drag.value;
+    asked.descent = false;
+    // Slower than it will descend, as soon after apogee: methods without gravity; the trajectory has the weight.
+    if (state_.speed <= 1.001 * slowest_opening(asked.payload_mass + canopy.mass,
+                                                *asked.drag_coefficient * canopy.area, state_.height,
+                                                asked.path_angle))
+      asked.path_angle = 0;
+    return run_load(canopy.resolved, asked);
+  }
+
+  void fly_stage(std::size_t i) {
+    const RecoveryCanopy& canopy = canopies_[i];
+    FlownStage stage{state_, opening_load(canopy)};
+    const StageLoads& opening = stage.load.stages.front();
+    const double others = body_area_ + (request_.drogue_released ? 0 : before_);
+    const double cx = stage.load.opening_coefficient, j = stage.load.filling_exponent;
+    const DragArea own = filling(0, opening.drag_area, opening.filling_time, j, cx);
+    const double ground = request_.ground + (i + 1 < canopies_.size() ? request_.main_height : 0.0);
+    const double begin = state_.time, settled = opening.filling_time * (2 + std::pow(cx, 1 / j));
+    const double drift = drift_;
+    const std::size_t first = flown_.rows.size();
+    append({[=](double t, double s) { return others + own(t, s); }, settled,
+            opening.filling_time / steps_of_filling, ground});
+    if (state_.height > ground) {
+      const double area = opening.drag_area;
+      append({[=](double, double) { return others + area; }, longest_descent, slow_step, ground});
+    }
+    for (std::size_t k = first; k < flown_.rows.size(); ++k) {
+      const FlightRow& row = flown_.rows[k].flight;
+      stage.peak_force = std::max(stage.peak_force, row.force * (1 - others / row.drag_area));
+    }
+    before_ = opening.drag_area;
+    stage.duration = state_.time - begin, stage.end_speed = state_.speed, stage.drift = drift_ - drift;
+    flown_.stages.push_back(std::move(stage));
+  }
+
+  /// Adds the rows of a leg, without repeating the state in which it begins, and the drift meanwhile.
+  void append(const Leg& leg) {
+    const std::vector<FlightRow> rows = fly(state_, mass_, leg);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      if (k > 0) {
+        const FlightState &a = rows[k - 1].state, &b = rows[k].state;
+        const Vec3 air =
+            wind_velocity(wind_, 0.5 * (a.height + b.height) - request_.ground, 0.5 * (a.time + b.time));
+        const double towards = wind_.direction_deg * std::numbers::pi / 180;
+        drift_ += (air.x * std::cos(towards) + air.y * std::sin(towards)) * (b.time - a.time);
+      }
+      if (k > 0 || flown_.rows.empty()) flown_.rows.push_back({rows[k], drift_});
+    }
+  }
+
+  const std::vector<RecoveryCanopy>& canopies_;
+  const RecoveryRequest& request_;
+  const Wind& wind_;
+  double body_area_, factor_, mass_ = 0;
+  double before_ = 0, drift_ = 0;  // drag area of the parachute before [m2], with the wind [m]
+  FlightState state_;
+  Flown flown_;
+};
+
+template <class Of3>
+Ranged ranged(const std::vector<Flown>& flights, Of3&& of) {
+  const double a = of(flights[0]), b = of(flights[1]), c = of(flights[2]);
+  return {a, std::min({a, b, c}), std::max({a, b, c})};
+}
+
+RecoveryStage stage_of(const RecoveryCanopy& canopy, std::size_t i, const std::vector<Flown>& flights,
+                       const RecoveryRequest& request, std::vector<std::string>& warnings) {
+  const FlownStage& flown = flights[0].stages[i];
+  const LoadResult& load = flown.load;
+  RecoveryStage s;
+  s.name = canopy.name, s.title = canopy.resolved.title();
+  s.drag_coefficient = canopy.drag.value, s.drag_uncertainty = canopy.drag.uncertainty;
+  s.drag_source = canopy.drag.from, s.reference_area = canopy.area;
+  s.time = flown.opening.time, s.height = flown.opening.height - request.ground;
+  s.path_angle = flown.opening.path_angle;
+  s.speed = ranged(flights, [&](const Flown& f) { return f.stages[i].opening.speed; });
+  s.filling_time = load.stages.front().filling_time;
+  s.lowest_load = load.stages.front().lowest, s.highest_load = load.stages.front().highest;
+  s.design_load = load.design_load, s.design_load_from = load.design_load_from;
+  if (flown.peak_force > s.design_load)
+    s.design_load = flown.peak_force, s.design_load_from = "largest force of the trajectory";
+  s.margins = load_margins(canopy.resolved, s.design_load);
+  LoadRequest asked;
+  asked.payload_mass = load.payload_mass, asked.height = load.height, asked.ground = request.ground;
+  asked.path_angle = std::max(flown.opening.path_angle, 0.0);
+  asked.drag_coefficient = canopy.drag.value;
+  s.safe = run_fastest(canopy.resolved, asked).design();
+  s.descent_rate = ranged(flights, [&](const Flown& f) { return f.stages[i].end_speed; });
+  s.duration = ranged(flights, [&](const Flown& f) { return f.stages[i].duration; });
+  s.drift = ranged(flights, [&](const Flown& f) { return f.stages[i].drift; });
+  s.mass = canopy.mass;
+  s.packed_volume = parachute_bill(canopy.resolved, {}, request.packing_density).packed_volume;
+  if (request.bay_diameter)
+    s.bay_length = s.packed_volume / (std::numbers::pi / 4 * *request.bay_diameter * *request.bay_diameter);
+  for (const std::string& text : margin_warnings(s.margins))
+    warnings.push_back(fmt::format("{}: {}", canopy.name, text));
+  if (s.safe.lowest && s.speed.high > *s.safe.lowest)
+    warnings.push_back(
+        fmt::format("{}: it opens at up to {:.1f} m/s; the fastest safe deployment is {:.1f} "
+                    "m/s (lower end of its range)",
+                    canopy.name, s.speed.high, *s.safe.lowest));
+  return s;
+}
+
+RecoveryCanopy canopy_of(const char* name, const Settings& resolved, const std::filesystem::path& steady) {
+  LoadRequest asked;
+  asked.steady = steady;
+  return {name, resolved, opening_drag_coefficient(resolved, asked), nominal_area(resolved.parachute()),
+          parachute_mass(resolved)};
+}
+
+}  // namespace
+
+std::string to_json(const RecoveryResult& result) {
+  return json_text(result);
+}
+
+RecoveryResult run_recovery(const Settings& main, const std::optional<Settings>& drogue,
+                            const RecoveryRequest& request) {
+  check_recovery(request, drogue.has_value());
+  std::vector<RecoveryCanopy> canopies;
+  if (drogue) canopies.push_back(canopy_of("drogue", *drogue, request.drogue_steady));
+  canopies.push_back(canopy_of("main", main, request.main_steady));
+  double uncertainty = 0;  // the larger one, for both: a range that contains every combination
+  for (const RecoveryCanopy& canopy : canopies) uncertainty = std::max(uncertainty, canopy.drag.uncertainty);
+  const Wind& wind = main.flight().wind;
+  const double body = request.body_drag_area.value_or(main.payload().drag_area_m2);
+  std::vector<Flown> flights;
+  for (const double factor : {1.0, 1 - uncertainty, 1 + uncertainty})
+    flights.push_back(RecoveryFlight(canopies, request, wind, body, factor).fly_down());
+  RecoveryResult r;
+  r.title = main.title(), r.mass = r.total_mass = request.mass;
+  for (const RecoveryCanopy& canopy : canopies) r.total_mass += canopy.mass;
+  r.apogee = request.apogee, r.ground = request.ground, r.wind = wind.speed_m_s;
+  for (std::size_t i = 0; i < canopies.size(); ++i)
+    r.stages.push_back(stage_of(canopies[i], i, flights, request, r.warnings));
+  r.time = ranged(flights, [](const Flown& f) { return f.rows.back().flight.state.time; });
+  r.drift = ranged(flights, [](const Flown& f) { return f.rows.back().drift; });
+  r.range = flights[0].rows.back().flight.state.range;
+  r.landing_speed = r.stages.back().descent_rate;
+  const auto energy = [&](double mass) {
+    const auto of = [&](double speed) { return 0.5 * mass * speed * speed; };
+    return Ranged{of(r.landing_speed.value), of(r.landing_speed.low), of(r.landing_speed.high)};
+  };
+  r.energy = energy(r.total_mass);
+  for (const double mass : request.sections) r.sections.push_back({mass, energy(mass)});
+  r.rows = std::move(flights[0].rows);
+  return r;
+}
+
+void write_recovery(const std::filesystem::path& folder, const RecoveryResult& r) {
+  make_results_folder(folder);
+  CsvTable table{columns_of<RecoveryRow>(), {}};
+  for (const RecoveryRow& row : r.rows) table.rows.push_back(row_of(row));
+  write_csv(folder / "trajectory.csv", table);
+  const auto plot = [&](const char* file, const char* label, auto value) {
+    Plot picture;
+    picture.title = r.title, picture.x.label = "time since apogee [s]", picture.y.label = label;
+    PlotSeries series;
+    series.markers = false;
+    for (const RecoveryRow& row : r.rows)
+      series.x.push_back(row.flight.state.time), series.y.push_back(value(row.flight.state));
+    picture.series.push_back(std::move(series));
+    write_plot(folder / file, picture);
+  };
+  plot("height.png", "height above the ground [m]",
+       [&](const FlightState& s) { return s.height - r.ground; });
+  plot("speed.png", "speed [m/s]", [](const FlightState& s) { return s.speed; });
+  write_file(folder / "result.json", to_json(r));
+}
+
+}  // namespace ripstop

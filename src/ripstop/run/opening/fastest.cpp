@@ -1,0 +1,150 @@
+#include "ripstop/run/opening/fastest.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "ripstop/core/claimed_folder.h"
+#include "ripstop/core/error.h"
+#include "ripstop/core/file.h"
+#include "ripstop/run/json.h"
+#include "ripstop/run/opening/handbook.h"
+
+namespace ripstop {
+namespace {
+
+constexpr double slowest_deployment = 1;  // [m/s]
+constexpr double speed_tolerance = 1e-3;  // relative
+
+/// The loads of one parachute by every method, at any speed.
+class LoadsAtSpeed {
+ public:
+  LoadsAtSpeed(const Settings& resolved, LoadRequest request)
+      : resolved_(resolved), request_(std::move(request)) {
+    request_.descent = false;
+  }
+
+  /// Each result is computed once: methods and uncertainties share their speeds.
+  const LoadResult& at(double speed) const {
+    const auto known = results_.find(speed);
+    if (known != results_.end()) return known->second;
+    LoadRequest asked = request_;
+    asked.speed = speed;
+    return results_.emplace(speed, run_load(resolved_, asked)).first->second;
+  }
+
+ private:
+  const Settings& resolved_;
+  LoadRequest request_;
+  mutable std::map<double, LoadResult> results_;
+};
+
+struct MethodPeak {
+  double load = 0;  // largest of all stages [N]
+  bool applies = true;
+  std::string note = {};
+};
+
+MethodPeak peak_of(const LoadResult& r, const std::string& method) {
+  MethodPeak peak;
+  for (const StageLoads& stage : r.stages)
+    for (const MethodLoad& m : stage.methods)
+      if (m.method == method && m.load > peak.load) peak = {m.load, m.applies, m.note};
+  return peak;
+}
+
+/// The largest speed from `low` up to the fastest deployment at which `keeps` is true; nothing: it is true at all of
+/// them.
+template <class Keeps>
+std::optional<double> largest_speed(double low, Keeps&& keeps) {
+  double high = fastest_deployment;
+  if (keeps(high)) return {};
+  while (high / low > 1 + speed_tolerance) {
+    const double middle = std::sqrt(low * high);
+    (keeps(middle) ? low : high) = middle;
+  }
+  return low;
+}
+
+SafeSpeed safe_speed(const Settings& resolved, const LoadsAtSpeed& loads, const std::string& method,
+                     double slowest, const FastestResult& r) {
+  const auto least = [&](double load) { return *weakest(load_margins(resolved, load)); };
+  const auto speed_with = [&](double factor) {
+    return largest_speed(slowest, [&](double speed) {
+      return *least(factor * peak_of(loads.at(speed), method).load).margin >= r.margin;
+    });
+  };
+  SafeSpeed safe;
+  safe.method = method;
+  if (*least(peak_of(loads.at(slowest), method).load).margin < r.margin) {
+    safe.unsafe_at = slowest;
+  } else {
+    safe.speed = speed_with(1);
+    safe.lowest = speed_with(1 + r.load_uncertainty);
+    safe.highest = speed_with(1 - r.load_uncertainty);
+  }
+  const MethodPeak peak =
+      peak_of(loads.at(safe.unsafe_at ? slowest : safe.speed.value_or(fastest_deployment)), method);
+  safe.load = peak.load, safe.applies = peak.applies, safe.note = peak.note;
+  safe.member = least(peak.load).member;
+  return safe;
+}
+
+}  // namespace
+
+const SafeSpeed& FastestResult::design() const {
+  return *std::find_if(methods.begin(), methods.end(),
+                       [&](const SafeSpeed& s) { return s.method == design_method; });
+}
+
+std::string to_json(const FastestResult& result) {
+  return json_text(result);
+}
+
+FastestResult run_fastest(const Settings& resolved, LoadRequest request, double margin) {
+  if (!(margin >= 0) || !std::isfinite(margin))
+    throw Error(ExitCode::usage, fmt::format("a margin of safety of {:g}: must be 0 or above", margin));
+  if (!weakest(load_margins(resolved, 1)))
+    throw Error(ExitCode::usage,
+                "no strength of lines, riser or hardware is known: give break_load_n to the materials of the "
+                "lines, or [hardware.NAME] with breaking_load_n or rated_load_n");
+  if (request.measured_load)
+    throw Error(ExitCode::usage,
+                "a measured load belongs to one speed: leave out --measured-load for the fastest deployment");
+  // A drag area that a run provides is read once.
+  const DragCoefficient drag = opening_drag_coefficient(resolved, request);
+  request.drag_coefficient = drag.value;
+  const LoadsAtSpeed loads(resolved, request);
+  const LoadResult& fast = loads.at(fastest_deployment);
+  FastestResult r;
+  r.title = fast.title, r.payload_mass = fast.payload_mass, r.parachute_mass = fast.parachute_mass;
+  r.height = fast.height, r.margin = margin;
+  r.load_uncertainty = std::hypot(drag.uncertainty, opening_scatter);
+  r.load_uncertainty_from = fmt::format("drag area {:.0f} % ({}), scatter of repeated openings {:.0f} %",
+                                        100 * drag.uncertainty, drag.from, 100 * opening_scatter);
+  const double slowest =
+      std::max(slowest_deployment, 1.001 * slowest_opening(r.payload_mass + r.parachute_mass,
+                                                           fast.drag_coefficient * fast.reference_area,
+                                                           r.height, request.path_angle));
+  for (const MethodLoad& m : fast.stages.front().methods)
+    r.methods.push_back(safe_speed(resolved, loads, m.method, slowest, r));
+  const bool computed = fast.record_peak_load && request.reefing.empty();
+  r.design_method = computed ? computed_method : infinite_mass_method;
+  if (r.design().unsafe_at)
+    r.warnings.push_back(
+        fmt::format("no deployment is safe by the method {}: at {:.3g} m/s, about the rate of descent, the "
+                    "{} has not its "
+                    "margin; use stronger parts",
+                    r.design_method, slowest, r.design().member));
+  return r;
+}
+
+void write_fastest(const std::filesystem::path& folder, const FastestResult& result) {
+  make_results_folder(folder);
+  write_file(folder / "result.json", to_json(result));
+}
+
+}  // namespace ripstop

@@ -1,0 +1,95 @@
+#include "ripstop/run/opening/snatch.h"
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "ripstop/case/deployment.h"
+#include "ripstop/core/error.h"
+#include "ripstop/core/units.h"
+#include "ripstop/flight/atmosphere.h"
+#include "ripstop/flight/deployment.h"
+#include "ripstop/flight/snatch.h"
+#include "ripstop/run/opening/load.h"
+
+namespace ripstop {
+namespace {
+
+/// The snatch of one case and request, whose parts can be changed.
+class Snatch {
+ public:
+  Snatch(const Settings& resolved, const LoadRequest& request, const LoadResult& result)
+      : request_(request),
+        masses_{result.payload_mass, result.parachute_mass},
+        density_(standard_air(result.height).density),
+        payload_area_(request.payload_drag_area.value_or(resolved.payload().drag_area_m2)) {
+    if (request.snatch_speed || request.packed_drag_area) return;
+    packed_ = packed_parachute(resolved);
+    packed_->speed = request.speed, packed_->density = density_;
+    packed_->payload_mass = result.payload_mass, packed_->payload_drag_area = payload_area_;
+    packed_->gravity = standard_gravity * std::sin(request.path_angle * std::numbers::pi / 180);
+  }
+
+  SnatchResult with(const std::vector<SnatchPart>& parts) const {
+    SnatchResult snatch;
+    if (packed_) {
+      PackedParachute packed = *packed_;
+      packed.lines = parts;
+      const Deployment d = deploy_parachute(packed);
+      snatch.from = "[deployment] of the case";
+      snatch.speed_difference = d.relative_speed, snatch.load = d.snatch_load;
+    } else {
+      snatch.from = request_.snatch_speed ? "given speed difference" : "drag area of the packed canopy";
+      snatch.speed_difference = request_.snatch_speed ? *request_.snatch_speed : difference(parts);
+      const SnatchLoad load = snatch_load(masses_.first, masses_.second, snatch.speed_difference, parts);
+      snatch.load = load.load, snatch.time = load.time, snatch.stretch = load.stretch;
+    }
+    snatch.line_load = snatch.load / parts.front().strands;
+    return snatch;
+  }
+
+  /// The load with one part changed; nothing where the parts would break.
+  std::optional<double> changed(std::vector<SnatchPart> parts, std::size_t part, double length,
+                                double stiffness) const {
+    parts[part].length *= length;
+    for (double& k : parts[part].coefficients) k *= stiffness;
+    try {
+      return with(parts).load;
+    } catch (const Error& error) {
+      if (error.code() != ExitCode::usage) throw;
+      return {};
+    }
+  }
+
+ private:
+  double difference(const std::vector<SnatchPart>& parts) const {
+    double length = 0;
+    for (const SnatchPart& part : parts) length += part.length;
+    return speed_difference_at_stretch({masses_.first, payload_area_},
+                                       {masses_.second, *request_.packed_drag_area}, request_.speed, density_,
+                                       length);
+  }
+
+  const LoadRequest& request_;
+  std::pair<double, double> masses_;  // payload, parachute [kg]
+  double density_, payload_area_;
+  std::optional<PackedParachute> packed_;
+};
+
+}  // namespace
+
+std::optional<SnatchResult> snatch_of(const Settings& resolved, const LoadRequest& request,
+                                      const LoadResult& result) {
+  if (!request.snatch_speed && !request.packed_drag_area && !resolved.deployment()) return {};
+  const Snatch snatch(resolved, request, result);
+  const std::vector<SnatchPart> parts = stretching_parts(resolved);
+  SnatchResult found = snatch.with(parts);
+  const double strength = resolved.materials().line.break_load_n;
+  if (strength > 0) found.line_margin = strength / found.line_load;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    found.changes.push_back({parts[i].name, snatch.changed(parts, i, 0.5, 1), snatch.changed(parts, i, 2, 1),
+                             snatch.changed(parts, i, 1, 0.5), snatch.changed(parts, i, 1, 2)});
+  return found;
+}
+
+}  // namespace ripstop

@@ -1,0 +1,56 @@
+// The snatch load of `ripstop load`, and its change with length and stiffness of every part that stretches.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ripstop/case/settings.h"
+#include "ripstop/core/members.h"
+
+namespace ripstop {
+
+struct LoadRequest;
+struct LoadResult;
+
+/// Snatch load with one part changed [N]; absent: lines or riser would break.
+struct SnatchChange {
+  std::string part;
+  std::optional<double> half_length, double_length, half_stiffness, double_stiffness;
+};
+template <Of<SnatchChange> T, class Visit>
+void each_member(T& c, Visit&& visit) {
+  visit("part", c.part);
+  visit("half_length_n", c.half_length);
+  visit("double_length_n", c.double_length);
+  visit("half_stiffness_n", c.half_stiffness);
+  visit("double_stiffness_n", c.double_stiffness);
+}
+
+struct SnatchResult {
+  double speed_difference = 0, load = 0;  // [m/s], [N]
+  std::optional<double> time, stretch;    // [s], [m]; absent: from the deployment in one dimension
+  double line_load = 0;                   // of one line [N]
+  std::optional<double> line_margin;      // its break load over that
+  std::string from;
+  std::vector<SnatchChange> changes;
+};
+template <Of<SnatchResult> T, class Visit>
+void each_member(T& s, Visit&& visit) {
+  visit("speed_difference_m_s", s.speed_difference);
+  visit("load_n", s.load);
+  visit("time_s", s.time);
+  visit("stretch_m", s.stretch);
+  visit("line_load_n", s.line_load);
+  visit("line_margin", s.line_margin);
+  visit("speed_difference_from", s.from);
+  visit("changes", s.changes);
+}
+
+/// At the speed difference of the request, at that which the drag area of the packed canopy causes, or by the
+/// [deployment] of the case at the speed of the request; nothing where none of them is given. Throws Error(usage) as
+/// snatch_load() and deploy_parachute().
+std::optional<SnatchResult> snatch_of(const Settings& resolved, const LoadRequest& request,
+                                      const LoadResult& result);
+
+}  // namespace ripstop

@@ -1,0 +1,122 @@
+// A recovery is the sum of its stages: terminal speeds, times, drift and energies of closed forms.
+#include "ripstop/run/descent/recovery.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+
+#include "ripstop/core/error.h"
+#include "ripstop/flight/atmosphere.h"
+#include "ripstop/flight/descent.h"
+#include "tests/refusal.h"
+
+namespace ripstop {
+namespace {
+
+Settings canopy(double diameter, std::vector<Setting> more = {}) {
+  Overrides overrides;
+  overrides.set = std::move(more);
+  overrides.set.push_back({"parachute.nominal_diameter_m", std::to_string(diameter)});
+  overrides.set.push_back({"parachute.vent_diameter_m", std::to_string(0.1 * diameter)});
+  overrides.set.push_back({"parachute.lines.length_m", std::to_string(1.2 * diameter)});
+  return resolve(
+      read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/flat-circular/case.toml", overrides));
+}
+
+RecoveryRequest request() {
+  RecoveryRequest r;
+  r.mass = 22, r.apogee = 3000, r.main_height = 300, r.ground = 200;
+  return r;
+}
+
+double drag_area(const RecoveryStage& s) {
+  return s.drag_coefficient * s.reference_area;
+}
+
+TEST(Recovery, StagesEndAtTheTerminalSpeedOfTheirDragAreas) {
+  const RecoveryResult r = run_recovery(canopy(3.5), canopy(0.7), request());
+  ASSERT_EQ(r.stages.size(), 2u);
+  const RecoveryStage &drogue = r.stages[0], &main = r.stages[1];
+  EXPECT_NEAR(main.height, 300, 1e-6);
+  // The speed follows the density with a delay of v / (2 g), hence from v^2 / (2 g) above.
+  const double rate = drogue.descent_rate.value, above = rate * rate / (2 * standard_gravity);
+  EXPECT_NEAR(rate / terminal_speed(r.total_mass, drag_area(drogue), standard_air(500 + above).density), 1,
+              5e-4);
+  EXPECT_NEAR(main.speed.value, drogue.descent_rate.value, 1e-9);
+  const double both = drag_area(drogue) + drag_area(main);  // the drogue remains attached
+  EXPECT_NEAR(r.landing_speed.value / terminal_speed(r.total_mass, both, standard_air(200).density), 1, 2e-3);
+  EXPECT_NEAR(r.energy.value, 0.5 * r.total_mass * r.landing_speed.value * r.landing_speed.value, 1e-9);
+  EXPECT_NEAR(r.time.value, drogue.duration.value + main.duration.value, 1e-9);
+  RecoveryRequest released = request();
+  released.drogue_released = true;
+  EXPECT_NEAR(run_recovery(canopy(3.5), canopy(0.7), released).landing_speed.value /
+                  terminal_speed(r.total_mass, drag_area(main), standard_air(200).density),
+              1, 2e-3);
+}
+
+TEST(Recovery, LoadsAreThoseOfTheSameOpeningsByTheLoadCommand) {
+  const RecoveryResult r = run_recovery(canopy(3.5), canopy(0.7), request());
+  LoadRequest asked;
+  asked.payload_mass = r.total_mass - r.stages[1].mass;
+  asked.speed = r.stages[1].speed.value, asked.height = 500, asked.ground = 200;
+  asked.path_angle = r.stages[1].path_angle;
+  const LoadResult load = run_load(canopy(3.5), asked);
+  EXPECT_NEAR(load.design_load / r.stages[1].design_load, 1, 1e-9);
+  EXPECT_NEAR(load.stages[0].filling_time / r.stages[1].filling_time, 1, 1e-9);
+  EXPECT_TRUE(r.stages[1].margins);
+}
+
+TEST(Recovery, RangesFollowTheUncertaintyOfTheDrag) {
+  const RecoveryResult r = run_recovery(canopy(3.5), canopy(0.7), request());
+  const double u = r.stages[1].drag_uncertainty;
+  EXPECT_NEAR(r.landing_speed.low / r.landing_speed.value, 1 / std::sqrt(1 + u), 3e-3);
+  EXPECT_NEAR(r.landing_speed.high / r.landing_speed.value, 1 / std::sqrt(1 - u), 3e-3);
+  EXPECT_LT(r.time.low, r.time.value);
+  EXPECT_GT(r.time.high, r.time.value);
+}
+
+TEST(Recovery, DriftIsTheWindTimesTheTimeInItAndAProfileIsSlowerBelow) {
+  const RecoveryResult uniform =
+      run_recovery(canopy(3.5, {{"flight.wind.speed_m_s", "4"}}), canopy(0.7), request());
+  EXPECT_NEAR(uniform.drift.value, 4 * uniform.time.value, 1e-6 * uniform.drift.value);
+  EXPECT_NEAR(uniform.stages[0].drift.value + uniform.stages[1].drift.value, uniform.drift.value, 1e-6);
+  const RecoveryResult profile =
+      run_recovery(canopy(3.5, {{"flight.wind.speed_m_s", "4"}, {"flight.wind.exponent", "0.15"}}),
+                   canopy(0.7), request());
+  // Mean of (h / 10 m)^0.15 at a constant rate from 300 m to the ground.
+  EXPECT_NEAR(profile.stages[1].drift.value / profile.stages[1].duration.value, 4 * std::pow(30, 0.15) / 1.15,
+              0.3);
+}
+
+TEST(Recovery, BodyAloneFallsDuringADelayAndALateDrogueOpensFaster) {
+  RecoveryRequest late = request();
+  late.delay = 6, late.body_drag_area = 0;
+  const RecoveryResult r = run_recovery(canopy(3.5), canopy(0.7), late);
+  EXPECT_NEAR(r.stages[0].time, 6, 1e-9);
+  EXPECT_NEAR(r.stages[0].speed.value, std::hypot(20, 6 * standard_gravity), 0.01);
+  EXPECT_GT(r.stages[0].design_load,
+            2 * run_recovery(canopy(3.5), canopy(0.7), request()).stages[0].design_load);
+}
+
+TEST(Recovery, ADrogueThatOpensSlowerThanItDescendsCarriesTheWeight) {
+  RecoveryRequest slow = request();
+  slow.speed = 2, slow.delay = 0.5;
+  const RecoveryStage drogue = run_recovery(canopy(3.5), canopy(0.7), slow).stages[0];
+  EXPECT_GT(drogue.design_load, 0.99 * 22 * standard_gravity);
+}
+
+TEST(Recovery, AMainAboveTheApogeeAndADelayToTheGroundAreRefused) {
+  RecoveryRequest wrong = request();
+  wrong.main_height = 3000;
+  EXPECT_NE(
+      refusal_of([&] { run_recovery(canopy(3.5), canopy(0.7), wrong); }, ExitCode::usage).find("apogee"),
+      std::string::npos);
+  RecoveryRequest late = request();
+  late.apogee = 50, late.delay = 100;
+  EXPECT_NE(refusal_of([&] { run_recovery(canopy(3.5), {}, late); }, ExitCode::usage).find("on the ground"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace ripstop

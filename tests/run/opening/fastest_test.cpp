@@ -1,0 +1,120 @@
+// The fastest safe deployment is the speed at which the weakest member is at its limit.
+#include "ripstop/run/opening/fastest.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "ripstop/core/error.h"
+#include "tests/refusal.h"
+
+namespace ripstop {
+namespace {
+
+Settings flat_circular(std::vector<Setting> more = {}) {
+  Overrides overrides;
+  overrides.set = std::move(more);
+  return resolve(
+      read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/flat-circular/case.toml", overrides));
+}
+
+LoadRequest request() {
+  LoadRequest r;
+  r.payload_mass = 5, r.height = 500, r.path_angle = 0, r.filling_constant = 8;
+  return r;
+}
+
+const SafeSpeed& by(const FastestResult& r, const std::string& method) {
+  for (const SafeSpeed& s : r.methods)
+    if (s.method == method) return s;
+  throw std::runtime_error("no method " + method);
+}
+
+TEST(Fastest, HasTheSpeedAtWhichTheWeakestMemberIsAtItsLimitByEveryMethod) {
+  const Settings resolved = flat_circular({{"hardware.swivel.rated_load_n", "900"}});
+  const FastestResult r = run_fastest(resolved, request());
+  for (const SafeSpeed& safe : r.methods) {
+    ASSERT_TRUE(safe.speed) << safe.method;
+    LoadRequest there = request();
+    there.speed = *safe.speed;
+    for (const MethodLoad& m : run_load(resolved, there).stages[0].methods) {
+      if (m.method == safe.method) {
+        EXPECT_NEAR(m.load / safe.load, 1, 1e-9) << m.method;
+        EXPECT_NEAR(*weakest(load_margins(resolved, m.load))->used, 1, 3e-3) << m.method;
+      }
+    }
+    EXPECT_LT(*safe.lowest, *safe.speed);
+    EXPECT_GT(*safe.highest, *safe.speed);
+  }
+  EXPECT_EQ(by(r, infinite_mass_method).member, "swivel");
+  EXPECT_EQ(r.design_method, infinite_mass_method);
+}
+
+// F = C_x C_D S0 rho v^2 / 2 = F_allowed, and 1 + u times that at the lower end.
+TEST(Fastest, OfInfiniteMassIsTheRootOfTheAllowableLoad) {
+  const Settings resolved = flat_circular({{"hardware.link.rated_load_n", "400"}});
+  const FastestResult r = run_fastest(resolved, request());
+  LoadRequest there = request();
+  there.speed = 10;
+  const double at_ten = run_load(resolved, there).design_load;
+  const SafeSpeed& safe = r.design();
+  EXPECT_NEAR(*safe.speed / (10 * std::sqrt(400 / at_ten)), 1, 2e-3);
+  EXPECT_NEAR(*safe.lowest / (10 * std::sqrt(400 / (at_ten * (1 + r.load_uncertainty)))), 1, 2e-3);
+  EXPECT_NEAR(r.load_uncertainty, std::hypot(0.1, 0.15), 1e-12);
+}
+
+TEST(Fastest, IsSlowerWithAMarginToKeepAndAbsentWhereNothingIsAtItsLimit) {
+  const Settings resolved = flat_circular({{"hardware.link.rated_load_n", "400"}});
+  const double without = *run_fastest(resolved, request()).design().speed;
+  EXPECT_NEAR(*run_fastest(resolved, request(), 1).design().speed * std::sqrt(2.0) / without, 1, 2e-3);
+  const FastestResult weak = run_fastest(flat_circular({{"hardware.link.rated_load_n", "0.01"}}), request());
+  EXPECT_TRUE(weak.design().unsafe_at);
+  EXPECT_FALSE(weak.design().speed);
+  ASSERT_EQ(weak.warnings.size(), 1u);
+  LoadRequest measured = request();
+  measured.measured_load = 100;
+  EXPECT_NE(refusal_of([&] { run_fastest(resolved, measured); }, ExitCode::usage).find("measured"),
+            std::string::npos);
+  EXPECT_THROW(run_fastest(resolved, request(), -0.1), Error);
+}
+
+TEST(Hardware, NeedsExactlyOneStrengthAndItsStretchInFull) {
+  for (const std::vector<Setting>& wrong :
+       {std::vector<Setting>{{"hardware.a.strands", "2"}},
+        {{"hardware.a.rated_load_n", "9"}, {"hardware.a.breaking_load_n", "9"}},
+        {{"hardware.a.rated_load_n", "9"}, {"hardware.a.length_m", "2"}}})
+    EXPECT_NE(refusal_of([&] { flat_circular(wrong); }, ExitCode::usage).find("hardware.a"),
+              std::string::npos);
+}
+
+// The energy of the snatch in a stiffer or shorter part is a higher load, and in a longer or softer one a lower load.
+TEST(Snatch, ChangesWithLengthAndStiffnessOfAShockCord) {
+  const Settings resolved = flat_circular({{"hardware.cord.breaking_load_n", "9000"},
+                                           {"hardware.cord.length_m", "5"},
+                                           {"hardware.cord.stiffness_n", "5000"}});
+  LoadRequest asked = request();
+  asked.speed = 30, asked.snatch_speed = 8;
+  const SnatchResult snatch = run_load(resolved, asked).snatch.value();
+  ASSERT_EQ(snatch.changes.back().part, "cord");
+  const SnatchChange& cord = snatch.changes.back();
+  EXPECT_GT(*cord.half_length, 1.2 * snatch.load);
+  EXPECT_LT(*cord.double_length, snatch.load / 1.2);
+  EXPECT_LT(*cord.half_stiffness, snatch.load / 1.2);
+  EXPECT_GT(*cord.double_stiffness, 1.2 * snatch.load);
+  LoadRequest without = asked;
+  EXPECT_GT(run_load(flat_circular(), without).snatch->load, 2 * snatch.load);
+}
+
+TEST(Snatch, OfTheDeploymentOfTheCaseIsComputedAtTheSpeedOfTheRequest) {
+  LoadRequest asked = request();
+  asked.speed = 30;
+  EXPECT_FALSE(run_load(flat_circular(), asked).snatch);
+  const Settings resolved = flat_circular({{"deployment.relative_speed_m_s", "12"}});
+  const SnatchResult snatch = run_load(resolved, asked).snatch.value();
+  EXPECT_EQ(snatch.from, "[deployment] of the case");
+  EXPECT_NEAR(snatch.speed_difference, 12, 3);
+  EXPECT_GT(snatch.load, 0);
+}
+
+}  // namespace
+}  // namespace ripstop
