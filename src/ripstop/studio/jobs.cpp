@@ -38,6 +38,15 @@ std::vector<std::string> last_lines(const fs::path& file) {
   return lines;
 }
 
+/// runs/.studio, neither of them a link to another place.
+fs::path records_in(const fs::path& folder) {
+  const fs::path runs = folder / "runs", records = runs / ".studio";
+  for (const fs::path& path : {runs, records})
+    if (fs::is_symlink(fs::symlink_status(path)))
+      throw Error(ExitCode::usage, fmt::format("{} is a link; Studio needs a folder there", path.string()));
+  return records;
+}
+
 /// The last line of a failed run that is a message of the program.
 std::string message_in(const std::vector<std::string>& lines) {
   for (auto line = lines.rbegin(); line != lines.rend(); ++line)
@@ -68,7 +77,7 @@ Job job_from_json(const std::string& text) {
 }
 
 JobQueue::JobQueue(fs::path folder, std::string program)
-    : folder_(std::move(folder)), program_(std::move(program)), records_(folder_ / "runs" / ".studio") {
+    : folder_(std::move(folder)), program_(std::move(program)), records_(records_in(folder_)) {
   std::vector<std::pair<fs::file_time_type, Job>> found;
   for (const fs::directory_entry& entry : fs::directory_iterator(records_.path())) {
     if (entry.path().extension() != ".json" || !entry.is_regular_file()) continue;
