@@ -63,7 +63,7 @@ class StudioPage(unittest.TestCase):
         PICTURES.mkdir(parents=True, exist_ok=True)
         for theme in ("light", "dark"):
             self.browser.theme(theme)
-            time.sleep(0.4)
+            time.sleep(1)
             self.browser.screenshot(PICTURES / f"{name}-{theme}.png")
         self.browser.theme("light")
 
@@ -150,8 +150,7 @@ class StudioPage(unittest.TestCase):
         self.browser.evaluate("[...document.querySelectorAll('[data-job] button')].find((one) => one.textContent === 'RocketPy').click()")
         self.until("document.querySelector('.log').textContent.includes('add_parachute')")
         self.browser.evaluate("[...document.querySelectorAll('[data-job] button')].find((one) => one.textContent === 'Report').click()")
-        self.until("document.querySelector('iframe') !== null")
-        time.sleep(2)
+        self.until("document.querySelector('#view-report').dataset.loaded === 'my-canopy-steady'")
         self.picture("report")
         own = f"http://127.0.0.1:{self.studio.port}/"
         self.assertEqual([url for url in self.browser.requests if not url.startswith((own, "data:", "blob:"))], [])

@@ -167,7 +167,7 @@ class Server(unittest.TestCase):
         self.assertEqual(status, 507, answer)
         self.assertIn("a.toml", answer["error"])
         self.assertEqual((self.folder / "a.toml").read_text(), CASE)
-        self.assertEqual(s.post("/api/jobs/start", name="full", command="steady", case="a.toml", options={"--grid": "12,12,16"})[0], 200)
+        self.assertEqual(s.post("/api/jobs/start", name="full", command="steady", case="a.toml", options={"--grid": "20,20,30"})[0], 200)
         self.assertEqual(self.wait_for("full", ["failed"]), "failed")
         message = next(job["message"] for job in s.get("/api/jobs")[1] if job["name"] == "full")
         self.assertIn("runs/full", message)
@@ -279,7 +279,7 @@ class Server(unittest.TestCase):
         self.assertEqual(self.studio.post("/api/jobs/start", name="x", command="report", case="a.toml", options={})[0], 400)
         self.assertEqual(self.studio.get("/api/jobs")[1], [])
 
-    def wait_for(self, name, states, seconds=30):
+    def wait_for(self, name, states, seconds=280):
         for _ in range(10 * seconds):
             state = next(job["state"] for job in self.studio.get("/api/jobs")[1] if job["name"] == name)
             if state in states:
@@ -289,13 +289,15 @@ class Server(unittest.TestCase):
 
     def test_runs_are_those_of_the_command_line(self):
         s = self.studio
-        for name, command, options in (("a-load", "load", {"--mass": 2.4, "--speed": "20"}), ("a-steady", "steady", {"--grid": "12,12,16"}), ("a-sweep", "sweep", {"--speeds": "18,20", "--grid": "12,12,16", "--jobs": 1})):
+        (self.folder / "a.toml").write_text(CASE + '\n[coupling]\nload = "uniform"\nthreads = 1\nmax_iterations = 2\n')
+        for name, command, options in (("a-load", "load", {"--mass": 2.4, "--speed": "20"}), ("a-steady", "steady", {"--grid": "20,20,30"}), ("a-sweep", "sweep", {"--speeds": "20", "--grid": "20,20,30", "--jobs": 1})):
             self.assertEqual(s.post("/api/jobs/start", name=name, command=command, case="a.toml", options=options)[0], 200)
         self.assertEqual(self.wait_for("a-load", ["finished"]), "finished")
-        ends = ["finished", "not converged"]
-        self.assertIn(self.wait_for("a-sweep", ends, 200), ends)
+        ends = ["finished", "not converged"]  # after two iterations
+        for name in ("a-steady", "a-sweep"):
+            self.assertIn(self.wait_for(name, [*ends, "failed"]), ends, s.get("/api/log", name=name))
         for name in ("load", "steady"):
-            more = ["--mass", "2.4", "--speed", "20"] if name == "load" else ["--grid", "12,12,16"]
+            more = ["--mass", "2.4", "--speed", "20"] if name == "load" else ["--grid", "20,20,30"]
             subprocess.run([PROGRAM, name, str(self.folder / "a.toml"), *more, "--out", str(self.place / name)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
             own, printed = (json.loads((folder / "result.json").read_text()) for folder in (self.folder / f"runs/a-{name}", self.place / name))
             for result in (own, printed):
@@ -322,7 +324,7 @@ class Server(unittest.TestCase):
         status, answer = self.studio.post("/api/material", **request)
         self.assertEqual(status, 200, answer)
         self.assertEqual(len(answer["result"]["understood"]), 2 * len(records))
-        self.assertEqual(sorted(answer["curves"]), ["warp", "weft"])
+        self.assertEqual(list(answer["curves"]), [direction["name"] for direction in answer["result"]["directions"]])
         self.assertEqual(len(answer["curves"]["warp"]["fit"]), len(answer["curves"]["warp"]["spread"]))
         self.assertFalse((self.folder / "materials").exists())
         status, answer = self.studio.post("/api/material", save=True, **request)

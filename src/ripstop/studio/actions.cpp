@@ -255,10 +255,14 @@ std::string Actions::later_shape(const std::string& view, unsigned number) {
   return shapes_.of(view)->answer(number, later_answer);
 }
 
-std::string Actions::load(const std::string& file, const std::string& mass, const std::string& speed) {
+std::string Actions::load(const std::string& file, const std::string& mass, const std::string& speed,
+                          const std::string& drag) {
   case_path(file);
   const TemporaryFolder out("ripstop-studio");
-  must({"load", file, "--mass=" + mass, "--speed=" + speed, "--out=" + (out.path / "load").string()});
+  std::vector<std::string> arguments = {"load", file, "--mass=" + mass, "--speed=" + speed,
+                                        "--out=" + (out.path / "load").string()};
+  if (!drag.empty()) arguments.push_back("--drag-coefficient=" + drag);
+  must(arguments);
   return read_file(out.path / "load" / "result.json");
 }
 

@@ -48,7 +48,9 @@ class Actions {
                     const std::string& nodes);
   /// Of a shape that was not in equilibrium yet: the same a little later.
   std::string later_shape(const std::string& view, unsigned number);
-  std::string load(const std::string& file, const std::string& mass, const std::string& speed);
+  /// `drag`: the drag coefficient; empty: that of the family.
+  std::string load(const std::string& file, const std::string& mass, const std::string& speed,
+                   const std::string& drag);
   /// Bill of materials and the pieces as SVG.
   std::string pattern(const std::string& file);
 

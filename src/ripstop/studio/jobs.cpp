@@ -47,11 +47,14 @@ fs::path records_in(const fs::path& folder) {
   return records;
 }
 
-/// The last line of a failed run that is a message of the program.
+/// The last message of the program in the output of a failed run, with the problems that it lists.
 std::string message_in(const std::vector<std::string>& lines) {
-  for (auto line = lines.rbegin(); line != lines.rend(); ++line)
-    if (line->starts_with("ripstop: ")) return line->substr(9);
-  return lines.empty() ? "" : lines.back();
+  const auto last = std::find_if(lines.rbegin(), lines.rend(),
+                                 [](const std::string& line) { return line.starts_with("ripstop: "); });
+  if (last == lines.rend()) return lines.empty() ? "" : lines.back();
+  std::string message = last->substr(9);
+  for (auto line = last.base(); line != lines.end(); ++line) message += "\n" + *line;
+  return message;
 }
 
 }  // namespace

@@ -188,7 +188,8 @@ void StudioServer::Parts::add_reading() {
   get("/api/case", [this](const Request& r) { return actions.read(parameter(r, "file")); });
   get("/api/pattern", [this](const Request& r) { return actions.pattern(parameter(r, "file")); });
   get("/api/load", [this](const Request& r) {
-    return actions.load(parameter(r, "file"), parameter(r, "mass"), parameter(r, "speed"));
+    return actions.load(parameter(r, "file"), parameter(r, "mass"), parameter(r, "speed"),
+                        r.get_param_value("drag"));
   });
   get("/api/shape", [this](const Request& r) {
     return actions.shape(parameter(r, "view"), parameter(r, "file"), r.get_param_value("pressure"),
@@ -249,6 +250,7 @@ StudioServer::StudioServer(const std::filesystem::path& folder, const std::strin
     : parts_(std::make_unique<Parts>(folder, program)) {
   httplib::Server& server = parts_->server;
   server.set_payload_max_length(largest_records);
+  server.set_tcp_nodelay(true);  // head and body are two writes
   server.set_keep_alive_max_count(1000);
   server.set_keep_alive_timeout(2);  // [s]; a stop waits for it
   // By default the library lets a second server share the port.

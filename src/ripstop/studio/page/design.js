@@ -16,19 +16,21 @@ class Design {
     this.against = null;  // the design that this one is compared with, as the server read it
     this.pressure = element("input", { inputmode: "decimal", "aria-label": "Dynamic pressure in Pa", "data-control": "pressure", onchange: () => this.drawShapes() });
     this.choice = element("select", { "data-control": "against", onchange: () => this.compare(this.choice.value) }, element("option", { value: "" }, "no other"));
-    this.names = [element("h2"), element("h2")];
+    this.names = [element("h2", { hidden: true }), element("h2", { hidden: true })];
     this.panes = element("div", { class: "panes" },
       element("section", { "aria-label": "Shape of the design" }, this.names[0], this.shape.timing, this.shape.node),
       this.otherPane = element("section", { "aria-label": "Shape of the other design", hidden: true }, this.names[1], this.other.timing, this.other.node));
     this.mass = this.asked("mass", "2.4");
     this.speed = this.asked("speed", "20");
+    this.drag = this.asked("drag-coefficient", "");
+    this.drag.placeholder = "of the family";
     this.facts = element("div", { "data-part": "facts" });
     this.loads = element("div", { "data-part": "loads" });
     this.node = element("div", { class: "view design", id: "view-design" }, this.form.node,
       element("div", { class: "middle" },
         element("div", { class: "above" }, element("label", {}, "Dynamic pressure [Pa] ", this.pressure), element("label", {}, "Compare with ", this.choice)), this.panes),
       element("aside", { class: "numbers", "aria-label": "Numbers" }, this.facts, element("h2", {}, "Descent and opening"),
-        element("div", { class: "fields" }, element("label", {}, "Payload mass [kg]", this.mass), element("label", {}, "Deployment speed [m/s]", this.speed)), this.loads));
+        element("div", { class: "fields" }, element("label", {}, "Payload mass [kg]", this.mass), element("label", {}, "Deployment speed [m/s]", this.speed), element("label", {}, "Drag coefficient on S0", this.drag)), this.loads));
     this.pieces = element("div", { class: "pieces" });
     this.bill = element("div", { class: "tables" });
     this.patternNode = element("div", { class: "view", id: "view-pattern" },
@@ -256,7 +258,7 @@ class Design {
   async drawLoads() {
     if (!this.data?.check.valid) return;
     const own = (this.loadNumber = (this.loadNumber ?? 0) + 1), against = this.against;
-    const ask = (file) => Server.get("/api/load", { file, mass: this.mass.value.trim(), speed: this.speed.value.trim() });
+    const ask = (file) => Server.get("/api/load", { file, mass: this.mass.value.trim(), speed: this.speed.value.trim(), drag: this.drag.value.trim() });
     try {
       const load = await ask(this.file), rows = Design.loadRows(load);
       const other = against?.check.valid ? Design.loadRows(await ask(against.file)) : {};
@@ -266,7 +268,9 @@ class Design {
       this.loads.dataset.file = this.file;
       this.loads.dataset.against = against?.file ?? "";
     } catch (error) {
-      if (own === this.loadNumber) this.loads.replaceChildren(element("p", { class: "problem" }, error.message));
+      if (own !== this.loadNumber) return;
+      this.loads.replaceChildren(element("p", { class: "problem" }, error.message));
+      this.loads.dataset.file = this.file;
     }
   }
 

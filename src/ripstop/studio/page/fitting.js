@@ -25,7 +25,7 @@ class Fitting {
         this.air = field("cfm", "Air permeability [CFM/ft²]"), field("columns", "Columns, if not recognised"),
         element("label", {}, "One record a direction is enough (no scatter)", this.single), element("label", {}, "Fit shear and bending with virtual coupons", this.coupons),
         this.problem, element("p", { class: "row" }, element("button", { type: "submit", class: "primary", "data-control": "fit-go" }, "Fit"), this.save)),
-      element("div", { class: "fields" }, element("div", { class: "panel" }, element("h2", {}, "Records"), this.drop, this.list), this.result)));
+      element("div", { class: "column" }, element("div", { class: "panel" }, element("h2", {}, "Records"), this.drop, this.list), this.result)));
     this.fields();
     this.listRecords();
   }

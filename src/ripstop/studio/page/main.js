@@ -38,7 +38,8 @@ const Studio = (() => {
   async function report(...names) {
     try {
       const { address } = await Server.get("/api/report", names.map((run) => ["run", run]));
-      frame.replaceChildren(element("iframe", { src: address, title: `Report of ${names.join(" and ")}` }));
+      delete frame.dataset.loaded;
+      frame.replaceChildren(element("iframe", { src: address, onload: () => { frame.dataset.loaded = names.join(" "); }, title: `Report of ${names.join(" and ")}` }));
       show("report");
     } catch (error) { notice(error.message); }
   }

@@ -23,7 +23,7 @@ class Runs {
     this.log = element("pre", { class: "log", tabindex: 0, "aria-label": "Output of the run" });
     this.plots = element("div", { class: "plots" });
     this.stage = element("div");
-    this.detail = element("div", { class: "panel", hidden: true, "data-part": "detail" }, this.title = element("h2"), this.stage, this.plots, this.log);
+    this.detail = element("div", { class: "panel", hidden: true, "data-part": "detail" }, this.title = element("h2"), this.log, this.plots, this.stage);
     this.others = element("div", { class: "panel", hidden: true });
     this.chosen = new Set();  // runs to compare
     this.comparison = element("button", { type: "button", "data-control": "compare-runs", disabled: true, onclick: () => this.report(...this.chosen) }, "Compare the marked runs");
@@ -31,7 +31,7 @@ class Runs {
       element("form", { class: "panel fields", onsubmit: (event) => { event.preventDefault(); this.start(); } }, element("h2", {}, "Start a run"),
         element("label", {}, "Run", this.command), this.inputs, element("label", {}, "Name", this.name), this.problem,
         element("button", { type: "submit", class: "primary", "data-control": "start" }, "Start")),
-      element("div", { class: "fields" }, element("div", { class: "panel" }, element("h2", {}, "Queue"), this.list, element("p", { class: "row" }, this.comparison)), this.others, this.detail)));
+      element("div", { class: "column" }, element("div", { class: "panel" }, element("h2", {}, "Queue"), this.list, element("p", {}, this.comparison)), this.others, this.detail)));
     this.known = "";
     this.fields();
   }
