@@ -22,6 +22,7 @@ Case canopy(double diameter, double speed, int nodes) {
   Case given = flat_circular_case(diameter, nodes, speed);
   given.parachute.canopy_material = "f-111";
   given.coupling.threads = 1;
+  apply({}, given);
   return given;
 }
 

@@ -15,6 +15,7 @@ Settings canopy() {
   Case given = flat_circular_case(1, 1000, 20);
   given.parachute.canopy_material = "f-111";
   given.coupling.threads = 1;
+  apply({}, given);
   return resolve(given);
 }
 
