@@ -48,6 +48,7 @@ const Studio = (() => {
     byId("case").value = file;
     sessionStorage.setItem("case", file);
     await design.open(file);
+    runs.propose();
   }
 
   async function look() {
