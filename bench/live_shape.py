@@ -4,7 +4,7 @@
     live_shape.py RIPSTOP [CHANGES]
 
 Each change multiplies one length of the example of a family by 1.05 or 0.96, or changes the pressure; changes that the
-check refuses do not count. The next change follows the equilibrium, or ten seconds without one. Times are those of a
+check refuses do not count. The next change follows the equilibrium, or five seconds without one. Times are those of a
 client on the same machine: the change of the file with its check, and the first shape. Writes a table in Markdown."""
 import json
 import pathlib
@@ -19,7 +19,7 @@ sys.path.insert(0, str(ROOT / "tests/studio"))
 from studio import Studio  # noqa: E402
 
 NODES = 3000
-PATIENCE = 10  # [s] of a designer who waits for the equilibrium before the next change
+PATIENCE = 5  # [s] of a designer who waits for the equilibrium before the next change
 
 
 def lengths(written):
@@ -99,7 +99,7 @@ def main():
 
     print("<!-- Made by: python3 bench/live_shape.py build-check/bin/ripstop -->\n")
     print(f"Ripstop, {platform.machine()}, {len(os.sched_getaffinity(0))} cores with a load of {os.getloadavg()[1]:.1f}, {time.strftime('%Y-%m-%d')}. {NODES} nodes of cloth. Times in s.\n")
-    print("| family | changes | first shape, median | 95 % | largest | in equilibrium at once, % | equilibrium, median | 95 % | none within 10 s |")
+    print("| family | changes | first shape, median | 95 % | largest | in equilibrium at once, % | equilibrium, median | 95 % | none within 5 s |")
     print("|---|---|---|---|---|---|---|---|---|")
     for family in families:
         print(line(family.name, family.rows))

@@ -39,7 +39,8 @@ const Studio = (() => {
     try {
       const { address } = await Server.get("/api/report", names.map((run) => ["run", run]));
       delete frame.dataset.loaded;
-      frame.replaceChildren(element("iframe", { src: address, onload: () => { frame.dataset.loaded = names.join(" "); }, title: `Report of ${names.join(" and ")}` }));
+      frame.replaceChildren(element("iframe", { src: address, title: `Report of ${names.join(" and ")}` }));
+      frame.dataset.names = names.join(" ");
       show("report");
     } catch (error) { notice(error.message); }
   }
@@ -149,6 +150,9 @@ const Studio = (() => {
     tabs();
     themes();
     creation();
+    window.addEventListener("message", (event) => {
+      if (event.data === "report ready" && event.source === frame.querySelector("iframe")?.contentWindow) frame.dataset.loaded = frame.dataset.names;
+    });
     byId("copy").addEventListener("click", () => copy());
     byId("undo").addEventListener("click", () => design.undo());
     byId("redo").addEventListener("click", () => design.redo());
