@@ -189,6 +189,7 @@ class StudioPage(unittest.TestCase):
             self.until(f"document.querySelector('[data-part=timing]').dataset.file === '{family}.toml'")
             self.until(f"document.querySelector('[data-part=loads]').dataset.file === '{family}.toml'")
             self.assertEqual(self.browser.evaluate("[...document.querySelectorAll('[data-key] .problem')].filter((one) => !one.hidden).map((one) => one.textContent)"), [], family)
+        self.assertTrue(self.browser.evaluate("document.getElementById('notice').hidden"), self.browser.evaluate("document.getElementById('notice').textContent"))
         self.picture("family")
         self.assertEqual([error for error in self.browser.errors if "400" not in error], [])  # some have no usual drag coefficient
 

@@ -70,7 +70,7 @@ std::string LiveShape::answer(unsigned number, double wait_s) {
   const auto superseded = [&] { return closing_ || number != newest_; };
   const auto done = [&] { return superseded() || (answer_.number == number && answer_.done); };
   if (!changed_.wait_for(lock, std::chrono::duration<double>(wait_s), done)) {
-    answer_ = {};  // a shape of the moment is made for the one who asks
+    answer_ = {};  // a shape of the moment is made on request
     wanted_ = true;
     changed_.wait(lock, [&] { return superseded() || answer_.number == number; });
   }

@@ -108,7 +108,9 @@ class Design {
     this.file = file;
     this.names[0].textContent = file;
     this.choice.dataset.names = "";
-    this.show(await Server.get("/api/case", { file }));
+    const data = await Server.get("/api/case", { file });
+    if (this.file !== file) return;
+    this.show(data);
     const mass = this.data.check.case?.payload?.mass_kg;
     if (mass !== undefined) this.mass.value = mass;
     this.draw();
@@ -164,8 +166,9 @@ class Design {
 
   /** The file was changed by another program. */
   async reread() {
-    const before = this.data.text;
-    this.show(await Server.get("/api/case", { file: this.file }));
+    const before = this.data.text, data = await Server.get("/api/case", { file: this.data.file });
+    if (data.file !== this.file) return;  // another case has been chosen
+    this.show(data);
     if (before !== this.data.text) {
       this.remember(before);
       this.buttons();

@@ -73,9 +73,9 @@ const Studio = (() => {
       await look();
       const now = folder.cases.find((one) => one.file === design.file);
       await design.busy;
-      if (now && design.data && now.version !== design.data.version) {
+      if (now && design.data?.file === now.file && now.version !== design.data.version) {
         const again = (await Server.get("/api/folder")).cases.find((one) => one.file === design.file);
-        if (again && again.version !== design.data.version) await design.reread();
+        if (again && again.file === design.data.file && again.version !== design.data.version) await design.reread();
       }
       if (design.file && !now) notice(`${design.file} is no longer in the folder.`);
     } catch (error) { notice(error.message); }
