@@ -7,6 +7,7 @@ Each change multiplies one length of the example of a family by 1.05 or 0.96, or
 check refuses do not count. The next change follows the equilibrium, or five seconds without one. Times are those of a
 client on the same machine: the change of the file with its check, and the first shape. Writes a table in Markdown."""
 import json
+import os
 import pathlib
 import platform
 import statistics
