@@ -34,6 +34,12 @@ def percentile(values, share):
     return ordered[min(len(ordered) - 1, int(share * len(ordered)))]
 
 
+def processor_time(pid):
+    """Of the server and the checks that it has started [s]."""
+    fields = pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
+    return sum(int(field) for field in fields[11:15]) / os.sysconf("SC_CLK_TCK")
+
+
 class Family:
     def __init__(self, studio, name):
         self.studio, self.name, self.file = studio, name, f"{name}.toml"
@@ -47,16 +53,18 @@ class Family:
         begin = time.perf_counter()
         status, answer = self.studio.get("/api/shape", view=self.name, file=self.file, nodes=NODES, **more)
         first = time.perf_counter() - begin
+        spent = processor_time(self.studio.process.pid)
         at_once = status == 200 and answer["done"]
         while status == 200 and not answer["done"] and time.perf_counter() - begin < PATIENCE:
             status, answer = self.studio.get("/api/shape/later", view=self.name, number=answer["number"])
-        return first, time.perf_counter() - begin, at_once, status == 200 and answer["done"] and answer["result"]["converged"]
+        return first, time.perf_counter() - begin, at_once, status == 200 and answer["done"] and answer["result"]["converged"], spent
 
     def change(self):
         """Whether the change was one that counts."""
         self.count += 1
         kind, factor = self.count % (len(self.keys) + 1), (1.05, 0.96)[self.count // (len(self.keys) + 1) % 2]
         more, writing = {}, 0.0
+        before = processor_time(self.studio.process.pid)
         if kind == 0:
             summary = self.case["check"]
             more = {"pressure": factor * 0.5 * summary["density_kg_m3"] * summary["speed_m_s"] ** 2}
@@ -69,7 +77,8 @@ class Family:
                 self.case = self.studio.post("/api/case/write", file=self.file, version=answer["version"], text=self.case["text"])[1]
                 return False
             self.case = answer
-        self.rows.append((writing, *self.timed_shape(more)))
+        row = self.timed_shape(more)
+        self.rows.append((writing, *row[:-1], row[-1] - before))
         return True
 
 
@@ -95,13 +104,14 @@ def main():
 
     def line(name, rows):
         first, whole = [row[0] + row[1] for row in rows], [row[0] + row[2] for row in rows]
-        return (f"| {name} | {len(rows)} | {statistics.median(first):.2f} | {percentile(first, 0.95):.2f} | {max(first):.2f} | {100 * sum(row[3] for row in rows) / len(rows):.0f} "
+        spent = [row[5] for row in rows]
+        return (f"| {name} | {len(rows)} | {statistics.median(first):.2f} | {percentile(first, 0.95):.2f} | {max(first):.2f} | {percentile(spent, 0.95):.2f} | {100 * sum(row[3] for row in rows) / len(rows):.0f} "
                 f"| {statistics.median(whole):.2f} | {percentile(whole, 0.95):.2f} | {sum(not row[4] for row in rows)} |")
 
     print("<!-- Made by: python3 bench/live_shape.py build-check/bin/ripstop -->\n")
     print(f"Ripstop, {platform.machine()}, {len(os.sched_getaffinity(0))} cores with a load of {os.getloadavg()[1]:.1f}, {time.strftime('%Y-%m-%d')}. {NODES} nodes of cloth. Times in s.\n")
-    print("| family | changes | first shape, median | 95 % | largest | in equilibrium at once, % | equilibrium, median | 95 % | none within 5 s |")
-    print("|---|---|---|---|---|---|---|---|---|")
+    print("| family | changes | first shape, median | 95 % | largest | its processor time, 95 % | in equilibrium at once, % | equilibrium, median | 95 % | none within 5 s |")
+    print("|---|---|---|---|---|---|---|---|---|---|")
     for family in families:
         print(line(family.name, family.rows))
     print(line("all", rows))
