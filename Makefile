@@ -130,6 +130,7 @@ bench: check-deps  ## Run the benchmarks, some four hours; their figures are in 
 	@build-check/bench/bench_cloth
 	@build-check/bench/bench_relaxation | tee docs/tables/relaxation.md
 	@build-check/bench/bench_relaxation --ratio --pressures 80 stratos-iv flat-circular
+	@/usr/bin/python3 bench/live_shape.py build-check/bin/ripstop | tee docs/tables/live-shape.md
 	@build-check/bench/bench_inflation
 	@build-check/bench/bench_flow --openfoam --large
 	@build-check/bench/bench_flow --in-time

@@ -24,6 +24,7 @@
 #include "ripstop/run/sweep/sweep_files.h"
 #include "sweep_progress.h"
 #include "table_options.h"
+#include "units_option.h"
 
 namespace ripstop {
 namespace {

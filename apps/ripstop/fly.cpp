@@ -18,6 +18,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/run/flight/flight_folder.h"
 #include "stopping.h"
+#include "units_option.h"
 #include "warnings.h"
 
 namespace ripstop {

@@ -23,6 +23,7 @@
 #include "ripstop/run/opening/samples.h"
 #include "ripstop/run/report/report.h"
 #include "stopping.h"
+#include "units_option.h"
 #include "warnings.h"
 
 namespace ripstop {

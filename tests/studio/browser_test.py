@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""Studio in a browser: from mass and descent rate to a design, its shape, numbers and pattern, a steady run, its report and RocketPy.
+"""Studio in a browser: from mass and descent rate to a design, its shape, numbers and pattern, a steady run, its report and RocketPy;
+every family, two designs side by side, a material from records, two tabs.
 
     browser_test.py RIPSTOP [FOLDER]
 
 Screenshots are written to FOLDER."""
+import json
 import pathlib
 import shutil
 import sys
@@ -48,8 +50,8 @@ class StudioPage(unittest.TestCase):
         self.browser.call("Page.navigate", url=self.studio.address)
         self.assertEqual(self.until("document.documentElement?.dataset.ready || ''"), "yes")
 
-    def type_into(self, selector, text):
-        self.browser.evaluate(f"(() => {{ const i = document.querySelector({selector!r}); i.value = {text!r}; i.dispatchEvent(new Event('change')); }})()")
+    def type_into(self, selector, text, browser=None):
+        (browser or self.browser).evaluate(f"(() => {{ const i = document.querySelector({selector!r}); i.value = {text!r}; i.dispatchEvent(new Event('change')); }})()")
 
     def click(self, selector):
         self.until(f"document.querySelector({selector!r}) !== null")
@@ -61,9 +63,16 @@ class StudioPage(unittest.TestCase):
         PICTURES.mkdir(parents=True, exist_ok=True)
         for theme in ("light", "dark"):
             self.browser.theme(theme)
-            time.sleep(0.4)
+            time.sleep(1)
             self.browser.screenshot(PICTURES / f"{name}-{theme}.png")
         self.browser.theme("light")
+
+    def drop(self, files):
+        """Files onto the records of the materials view."""
+        given = {file.name: file.read_text() for file in files}
+        self.browser.evaluate(f"""(() => {{ const data = new DataTransfer();
+            for (const [name, text] of Object.entries({json.dumps(given)})) data.items.add(new File([text], name));
+            document.querySelector('[data-part=drop]').dispatchEvent(new DragEvent('drop', {{ dataTransfer: data }})); }})()""")
 
     def shape_number(self):
         return int(self.browser.evaluate("document.querySelector('[data-part=timing]').dataset.shape || 0"))
@@ -115,6 +124,10 @@ class StudioPage(unittest.TestCase):
 
         self.click("[data-view=pattern]")
         self.until("document.querySelector('[data-piece] img').naturalWidth > 0")
+        self.click("[data-control=save-pattern]")
+        self.until("document.querySelector('#view-pattern [role=status]').textContent.includes('saved in')")
+        saved = {path.suffix for path in (self.folder / "my-canopy-pattern").iterdir()}
+        self.assertLessEqual({".dxf", ".svg", ".pdf"}, saved)
         self.picture("pattern")
         self.click("[data-view=text]")
         self.picture("text")
@@ -131,14 +144,97 @@ class StudioPage(unittest.TestCase):
         self.until("!['queued', 'running'].includes(document.querySelector('[data-job]')?.dataset.state ?? 'queued')", 200)
         self.assertEqual(self.browser.evaluate("document.querySelector('[data-job]').dataset.state"), "finished",
                          self.browser.evaluate("document.querySelector('[data-job] .line').textContent"))
+        self.click("[data-job] [data-focus^=Output]")
+        self.until("document.querySelector('[data-plot=forces] canvas') !== null && document.querySelector('[data-part=detail] .stage canvas') !== null")
         self.picture("runs-done")
+        self.browser.evaluate("[...document.querySelectorAll('[data-job] button')].find((one) => one.textContent === 'RocketPy').click()")
+        self.until("document.querySelector('.log').textContent.includes('add_parachute')")
         self.browser.evaluate("[...document.querySelectorAll('[data-job] button')].find((one) => one.textContent === 'Report').click()")
-        self.until("document.querySelector('iframe') !== null")
-        time.sleep(2)
+        self.until("document.querySelector('#view-report')?.dataset.loaded === 'my-canopy-steady'")
         self.picture("report")
         own = f"http://127.0.0.1:{self.studio.port}/"
         self.assertEqual([url for url in self.browser.requests if not url.startswith((own, "data:", "blob:"))], [])
         self.assertEqual([error for error in self.browser.errors if "400" not in error], [])
+
+    def test_two_designs_are_side_by_side(self):
+        case = (ROOT / "examples/conical/case.toml").read_text()
+        (self.folder / "a.toml").write_text(case)
+        self.open()
+        self.until("document.querySelector('[data-part=loads]').dataset.file === 'a.toml'")
+        self.click("#copy")
+        self.until("[...document.querySelectorAll('[data-control=against] option')].some((one) => one.value === 'a-2.toml')")
+        self.assertEqual((self.folder / "a-2.toml").read_text(), case)
+        self.click("#notice button")
+        self.type_into("#key-parachute\\.lines\\.length_m", "1.5")
+        self.until("!document.getElementById('undo').disabled")
+        self.type_into("[data-control=against]", "a-2.toml")
+        self.until("document.querySelector('[data-part=loads]').dataset.against === 'a-2.toml'")
+        self.until("document.querySelectorAll('.panes [data-part=timing][data-done=true]').length === 2")
+        self.until("Studio.design().packed > 0 && Studio.design().otherPacked > 0 && document.querySelectorAll('[data-part=facts] tr:first-child td').length === 4")
+        mass = self.browser.evaluate("[...document.querySelectorAll('[data-part=facts] tr')].find((row) => row.textContent.startsWith('lines')).innerText.split('\\t')")
+        self.assertGreater(float(mass[1]), float(mass[2]))
+        self.picture("compare")
+        self.type_into("[data-control=against]", "")
+        self.until("document.querySelectorAll('[data-part=facts] tr:first-child td').length === 2")
+        self.assertEqual(self.browser.errors, [])
+
+    def test_every_family_has_a_shape(self):
+        families = self.studio.get("/api/folder")[1]["families"]
+        self.assertGreaterEqual(len(families), 12)
+        for family in families:
+            (self.folder / f"{family}.toml").write_text((ROOT / f"examples/{family}/case.toml").read_text())
+        self.open()
+        for family in families:
+            self.type_into("#case", f"{family}.toml")
+            self.until(f"document.querySelector('[data-part=timing]').dataset.file === '{family}.toml'")
+            self.until(f"document.querySelector('[data-part=loads]').dataset.file === '{family}.toml'")
+            self.assertEqual(self.browser.evaluate("[...document.querySelectorAll('[data-key] .problem')].filter((one) => !one.hidden).map((one) => one.textContent)"), [], family)
+        self.assertTrue(self.browser.evaluate("document.getElementById('notice').hidden"), self.browser.evaluate("document.getElementById('notice').textContent"))
+        self.picture("family")
+        self.assertEqual([error for error in self.browser.errors if "400" not in error], [])  # some have no usual drag coefficient
+
+    def test_a_record_becomes_a_material(self):
+        (self.folder / "a.toml").write_text((ROOT / "examples/conical/case.toml").read_text())
+        self.open()
+        self.click("[data-view=materials]")
+        self.drop(sorted((ROOT / "examples/fit-ripstop/records").glob("warp-[12].csv")))
+        self.until("document.querySelectorAll('[data-record]').length === 2")
+        for name, text in (("areal", "0.0407"), ("thick", "7.6e-5"), ("source", "a <b>test</b>"), ("cfm", "3")):
+            self.type_into(f"[data-control=fit-{name}]", text)
+        self.click("[data-control=fit-go]")
+        self.until("document.querySelector('[data-part=fit-result]').dataset.state === 'done' || document.querySelector('[data-part=fit-problem]').textContent")
+        self.assertEqual(self.browser.evaluate("document.querySelector('[data-part=fit-problem]').textContent"), "")
+        understood = self.browser.evaluate("[...document.querySelectorAll('[data-part=understood] li')].map((one) => one.textContent)")
+        self.assertEqual(len(understood), 4)
+        self.assertIn("is extension in mm", understood[0])
+        self.assertTrue(self.browser.evaluate("document.querySelector('[data-plot=fit-warp] canvas') !== null"))
+        self.picture("materials")
+        self.click("[data-control=fit-save]")
+        self.until("document.querySelector('[data-part=saved]') !== null")
+        self.assertTrue((self.folder / "materials/my-cloth.toml").exists())
+        self.click("[data-view=design]")
+        self.type_into("#key-parachute\\.canopy_material", "my-cloth")
+        self.until("document.querySelector('[data-key=\"parachute.canopy_material\"]').classList.contains('given') && Studio.design().data.text.includes('my-cloth')")
+        self.assertTrue(self.browser.evaluate("Studio.design().data.check.valid"))
+        self.assertEqual(self.browser.errors, [])
+
+    def test_two_tabs_see_the_changes_of_each_other(self):
+        (self.folder / "a.toml").write_text((ROOT / "examples/conical/case.toml").read_text())
+        self.open()
+        first, second = self.browser, Browser(1280, 800)
+        try:
+            self.browser = second
+            self.open()
+            self.type_into("#key-parachute\\.lines\\.length_m", "1.25", first)
+            self.until("document.querySelector('#key-parachute\\\\.lines\\\\.length_m').value === '1.25'")
+            self.until("document.getElementById('notice').textContent.includes('changed outside')")
+            self.click("#undo")
+            self.browser = first
+            self.until("document.querySelector('#key-parachute\\\\.lines\\\\.length_m').value !== '1.25'")
+        finally:
+            self.browser = first
+            second.close()
+        self.assertEqual((self.folder / "a.toml").read_text(), (ROOT / "examples/conical/case.toml").read_text())
 
     def test_titles_and_names_are_text(self):
         hostile = "<img src=x onerror=window.taken=1></script><script>window.taken=1</script>"

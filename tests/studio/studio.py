@@ -10,8 +10,9 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 
 
 class Studio:
-    def __init__(self, program, folder, *arguments):
-        self.process = subprocess.Popen([program, "studio", str(folder), "--no-browser", *arguments], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    def __init__(self, program, folder, *arguments, before=None):
+        """`before` is called in the new process."""
+        self.process = subprocess.Popen([program, "studio", str(folder), "--no-browser", *arguments], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, preexec_fn=before)
         self.address = self.process.stdout.readline().strip()
         if not self.address:
             self.process.stdout.close()
@@ -43,6 +44,18 @@ class Studio:
     def post(self, path, **body):
         status, _, answer = self.request("POST", path, body)
         return status, json.loads(answer)
+
+    def shape(self, view="test", **parameters):
+        """The shape in equilibrium, or the answer of a refusal."""
+        status, answer = self.get("/api/shape", view=view, **parameters)
+        while status == 200 and not answer["done"]:
+            status, answer = self.get("/api/shape/later", view=view, number=answer["number"])
+        return status, answer
+
+    def memory(self):
+        """Of the server [bytes]."""
+        text = pathlib.Path(f"/proc/{self.process.pid}/status").read_text()
+        return 1024 * int(next(line.split()[1] for line in text.splitlines() if line.startswith("VmRSS")))
 
     def end(self, number=signal.SIGINT):
         self.process.send_signal(number)

@@ -36,6 +36,8 @@
 #include "ripstop/cloth/relaxation_step.h"
 #include "ripstop/cloth/sector.h"
 #include "ripstop/cloth/stability_limit.h"
+#include "ripstop/cloth/symmetric.h"
+#include "ripstop/cloth/watched_relaxation.h"
 #include "ripstop/core/error.h"
 #include "ripstop/mesh/each_spring.h"
 
@@ -76,32 +78,6 @@ struct Masses {
   std::vector<Symmetric> mass;  // by node; 0: does not move
   FictitiousMasses fictitious;
 };
-
-Symmetric inverse_of(const Symmetric& a) {
-  const auto [xx, yy, zz, xy, xz, yz] = a;
-  if (xy == 0 && xz == 0 && yz == 0 && xx > 0) return {1 / xx, 1 / yy, 1 / zz, 0, 0, 0};
-  const Symmetric adjugate{yy * zz - yz * yz, xx * zz - xz * xz, xx * yy - xy * xy,
-                           xz * yz - xy * zz, xy * yz - xz * yy, xy * xz - xx * yz};
-  const double determinant = xx * adjugate[0] + xy * adjugate[3] + xz * adjugate[4];
-  if (!(determinant > 0)) return {};  // a node without any stiffness (a hole in the cloth) rests where it is
-  Symmetric inverse;
-  for (int i = 0; i < 6; ++i) inverse[i] = adjugate[i] / determinant;
-  return inverse;
-}
-
-// With P the projection on the free directions of a node: P a P, plus a term of the size of a in the fixed
-// directions.
-Symmetric within(const Symmetric& p, const Symmetric& a) {
-  const Vec3 x = p * (a * (p * Vec3{1, 0, 0})), y = p * (a * (p * Vec3{0, 1, 0})),
-             z = p * (a * (p * Vec3{0, 0, 1}));
-  return {x.x, y.y, z.z, y.x, z.x, z.y};
-}
-Symmetric held_beside(const Symmetric& p, const Symmetric& a) {
-  Symmetric sum = within(p, a);
-  const double size = (a[0] + a[1] + a[2]) / 3;
-  for (int i = 0; i < 6; ++i) sum[i] += size * ((i < 3 ? 1 : 0) - p[i]);
-  return sum;
-}
 
 // Cloth that carries compression has many equilibria close together, and the path decides between them. The
 // path is that of the printed lattice, with equal masses along all directions and no soft start.
@@ -209,7 +185,7 @@ class Relaxation {
     stop();
   }
 
-  RelaxResult run(const std::function<void(const RelaxProgress&)>& report) {
+  RelaxResult run(const RelaxWatch& watch) {
     while (!result_.converged && result_.steps < options_.max_steps) {
       const int refresh_after = steps_a_refresh(result_, wrinkles_);
       const int count = std::min({steps_between_checks, refresh_after, options_.max_steps - result_.steps});
@@ -225,7 +201,9 @@ class Relaxation {
       // is cancelled turns nothing.
       if (pivot_ && !result_.converged && !blocks_) stop_turning(cloth_, state_, masses_.mass, *pivot_);
       keep();
-      if (report) report({result_.steps, result_.residual, fictitious_energy(cloth_, state_, masses_.mass)});
+      if (watch)
+        watch({result_.steps, result_.residual, fictitious_energy(cloth_, state_, masses_.mass)},
+              [this] { return positions(state_, cloth_); });
       if (since_refresh_ < refresh_after || result_.converged) continue;
       lightness_.dare();
       refresh();
@@ -397,13 +375,12 @@ class Way {
  public:
   /// Of a canopy, or of its sector with `images` of it and its `freedom`.
   Way(const Cloth& cloth, const Loads& loads, const RelaxOptions& options, ThreadTeam& team,
-      const std::function<void(const RelaxProgress&)>& report, int images = 1,
-      std::vector<Symmetric> freedom = {})
+      const RelaxWatch& watch, int images = 1, std::vector<Symmetric> freedom = {})
       : cloth_(cloth),
         loads_(loads),
         options_(options),
         team_(team),
-        report_(report),
+        watch_(watch),
         images_(images),
         freedom_(std::move(freedom)) {}
 
@@ -419,7 +396,7 @@ class Way {
     const int steps = from_afar ? go_softly(state, start) : 0;
     RelaxOptions rest = options_;
     rest.max_steps = std::max(1, options_.max_steps - steps);
-    RelaxResult result = Relaxation(state, cloth_, loads_, rest, team_, start, freedom_).run(report_);
+    RelaxResult result = Relaxation(state, cloth_, loads_, rest, team_, start, freedom_).run(watch_);
     result.steps += steps;
     return result;
   }
@@ -435,7 +412,7 @@ class Way {
       const ClothPtr soft = make_cloth(*mesh, cloth_.options);
       const int most = std::min(soft_steps, options_.max_steps - steps);
       const RelaxOptions roughly{soft_tolerance, most, options_.least_load, options_.regularisation};
-      steps += Relaxation(state, *soft, loads_, roughly, team_, start, freedom_).run(report_).steps;
+      steps += Relaxation(state, *soft, loads_, roughly, team_, start, freedom_).run(watch_).steps;
     }
     return steps;
   }
@@ -444,7 +421,7 @@ class Way {
   const Loads& loads_;
   const RelaxOptions& options_;
   ThreadTeam& team_;
-  const std::function<void(const RelaxProgress&)>& report_;
+  const RelaxWatch& watch_;
   int images_;
   std::vector<Symmetric> freedom_;
 };
@@ -452,7 +429,7 @@ class Way {
 /// A canopy that is far from equilibrium is first solved as a sector, under the part of its load that is
 /// common to all gores. Returns whether the sector reached equilibrium; if not, the canopy is unchanged.
 bool predict_by_sector(ClothState& state, const Cloth& cloth, const Loads& loads, const RelaxOptions& options,
-                       const std::function<void(const RelaxProgress&)>& report) {
+                       const RelaxWatch& watch) {
   const std::optional<Sector> sector = sector_of(cloth.mesh, positions(state, cloth), loads);
   if (!sector) return false;
   ClothOptions of_sector = cloth.options;
@@ -461,7 +438,12 @@ bool predict_by_sector(ClothState& state, const Cloth& cloth, const Loads& loads
   const ClothState start = start_state(*part);
   ClothState rests = start;
   ThreadTeam alone(1);  // some hundred nodes
-  const Way way(*part, sector->loads, options, alone, report, sector->images, sector->freedom);
+  RelaxWatch watch_sector;
+  if (watch)
+    watch_sector = [&](const RelaxProgress& progress, const std::function<std::vector<Vec3>()>& of_part) {
+      watch(progress, [&] { return sector->whole(of_part()); });
+    };
+  const Way way(*part, sector->loads, options, alone, watch_sector, sector->images, sector->freedom);
   try {
     if (!way.go(rests, start, true).converged) return false;
   } catch (const Error& error) {
@@ -476,10 +458,17 @@ bool predict_by_sector(ClothState& state, const Cloth& cloth, const Loads& loads
 
 RelaxResult relax(ClothState& state, const Cloth& cloth, const Loads& loads, const RelaxOptions& options,
                   ThreadTeam& team, const std::function<void(const RelaxProgress&)>& report) {
+  RelaxWatch watch;
+  if (report) watch = [&](const RelaxProgress& progress, const auto&) { report(progress); };
+  return watched_relax(state, cloth, loads, options, team, watch);
+}
+
+RelaxResult watched_relax(ClothState& state, const Cloth& cloth, const Loads& loads,
+                          const RelaxOptions& options, ThreadTeam& team, const RelaxWatch& watch) {
   const ClothState start = state;
-  const Way way(cloth, loads, options, team, report);
+  const Way way(cloth, loads, options, team, watch);
   bool far = way.is_far(state);
-  if (far && options.regularisation == 0) far = !predict_by_sector(state, cloth, loads, options, report);
+  if (far && options.regularisation == 0) far = !predict_by_sector(state, cloth, loads, options, watch);
   RelaxResult result = way.go(state, start, far);
   const std::vector<Vec3> before = positions(start, cloth), now = positions(state, cloth);
   result.mean_displacement = mean_distance(now, before);

@@ -227,6 +227,12 @@ std::string shape_json(const ShapeView& shape) {
   return j.dump(-1, ' ', true, Json::error_handler_t::replace);
 }
 
+std::string plots_json(const std::vector<ReportPlot>& plots) {
+  Json list = Json::array();
+  for (const ReportPlot& plot : plots) list.push_back(to_json(plot));
+  return list.dump(-1, ' ', true, Json::error_handler_t::replace);
+}
+
 bool is_report(const std::string& page) {
   return page.starts_with(beginning);
 }

@@ -70,6 +70,8 @@ std::string report_page(const Report& report);
 
 /// A shape and the colour scale as the scripts of the page read them: JSON with packed numbers.
 std::string shape_json(const ShapeView& shape);
+/// Plots likewise, as a JSON list.
+std::string plots_json(const std::vector<ReportPlot>& plots);
 
 /// Whether a file begins as report_page() does.
 bool is_report(const std::string& page);

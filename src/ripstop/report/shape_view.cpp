@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <variant>
 
 #include "ripstop/core/error.h"
 #include "ripstop/output/vtk_read.h"
@@ -125,6 +126,28 @@ ShapeView read_shape(const std::vector<ShapeFiles>& files) {
     view.frames.push_back(std::move(frame));
   }
   if (!view.frames.empty()) lay_onto_lines(view);
+  return view;
+}
+
+ShapeView shape_of(const VtkSurface& canopy, const VtkSurface& lines) {
+  const auto numbers = [](const VtkArray& array) {
+    return std::visit([](const auto& list) { return std::vector<double>(list.begin(), list.end()); },
+                      array.values);
+  };
+  ShapeView view;
+  ShapeFrame frame;
+  for (const Vec3& p : canopy.points) frame.points.insert(frame.points.end(), {p.x, p.y, p.z});
+  view.quads.assign(canopy.polygons.connectivity.begin(), canopy.polygons.connectivity.end());
+  view.segments.assign(lines.lines.connectivity.begin(), lines.lines.connectivity.end());
+  for (const VtkArray& array : canopy.cell_arrays)
+    if (array.components == 1) frame.cells.push_back({array.name, numbers(array)});
+  for (const VtkArray& array : lines.cell_arrays) {
+    const std::vector<double> values = numbers(array);
+    if (array.name == "part") view.parts.assign(values.begin(), values.end());
+    if (array.name == "tension_n") frame.line_values = values;
+  }
+  view.frames.push_back(std::move(frame));
+  lay_onto_lines(view);
   return view;
 }
 

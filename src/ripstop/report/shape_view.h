@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "ripstop/output/vtk.h"
+
 namespace ripstop {
 
 /// One value a cell.
@@ -39,5 +41,8 @@ struct ShapeFiles {
   std::filesystem::path canopy, lines;
 };
 ShapeView read_shape(const std::vector<ShapeFiles>& files);
+
+/// Of such surfaces in memory: cloth as quads, and lines with their parts.
+ShapeView shape_of(const VtkSurface& canopy, const VtkSurface& lines);
 
 }  // namespace ripstop

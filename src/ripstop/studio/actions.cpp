@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <set>
+#include <optional>
 #include <utility>
 
+#include "ripstop/case/case.h"
+#include "ripstop/case/settings.h"
 #include "ripstop/core/build_info.h"
 #include "ripstop/core/claimed_folder.h"
 #include "ripstop/core/error.h"
@@ -17,8 +18,7 @@
 #include "ripstop/core/toml/document.h"
 #include "ripstop/core/toml/problem.h"
 #include "ripstop/core/toml/read.h"
-#include "ripstop/report/report.h"
-#include "ripstop/report/shape_view.h"
+#include "ripstop/core/toml/set.h"
 #include "ripstop/studio/case_edit.h"
 
 namespace ripstop {
@@ -27,53 +27,11 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::uintmax_t largest_report = 64 << 20;  // [bytes]
+// Times until the page shows a shape that is not in equilibrium yet, and the next one [s].
+constexpr double first_answer = 0.4, later_answer = 1.5;
 
 std::string text_of(const Json& j) {
   return j.dump(-1, ' ', true, Json::error_handler_t::replace);
-}
-
-Json parsed(const std::string& text) {
-  try {
-    return Json::parse(text);
-  } catch (const Json::exception& error) {
-    throw Error(ExitCode::usage, fmt::format("not JSON: {}", error.what()));
-  }
-}
-
-/// Options of a command that the page may give; their values are arguments of their own option only.
-const std::set<std::string>& options_of(const std::string& command) {
-  static const std::map<std::string, std::set<std::string>> all = {
-      {"steady", {"--speed", "--grid", "--unsteady"}},
-      {"inflate", {"--pressure", "--duration", "--cloth-nodes", "--speed", "--air"}},
-      {"fly", {"--mass", "--duration", "--cloth-nodes", "--angle", "--height", "--wind", "--cells-across"}},
-      {"size", {"--mass", "--descent-rate", "--family", "--height"}},
-  };
-  const auto found = all.find(command);
-  if (found == all.end())
-    throw Error(ExitCode::usage, fmt::format("{} is not a run that Studio starts", quoted(command)));
-  return found->second;
-}
-
-std::vector<std::string> arguments_of(const std::string& command, const Json& options) {
-  const std::set<std::string>& allowed = options_of(command);
-  std::vector<std::string> arguments;
-  for (const auto& [option, value] : options.items()) {
-    if (!allowed.contains(option))
-      throw Error(ExitCode::usage, fmt::format("{} is not an option of {} here", quoted(option), command));
-    if (value.is_boolean()) {
-      if (value.get<bool>()) arguments.push_back(option);
-    } else {
-      arguments.push_back(option + "=" + (value.is_string() ? value.get<std::string>() : value.dump()));
-    }
-  }
-  return arguments;
-}
-
-void require_name(const std::string& name) {
-  if (!is_name(name))
-    throw Error(ExitCode::usage,
-                fmt::format("{} is not a name: letters, digits, '.', '_' and '-', at most 64", quoted(name)));
 }
 
 /// A JSON value as TOML; both write texts, numbers and lists alike.
@@ -96,12 +54,32 @@ Json check_report(int code, const std::string& output) {
 
 }  // namespace
 
+Json parsed(const std::string& text) {
+  try {
+    return Json::parse(text);
+  } catch (const Json::exception& error) {
+    throw Error(ExitCode::usage, fmt::format("not JSON: {}", error.what()));
+  }
+}
+
+void require_name(const std::string& name) {
+  if (!is_name(name))
+    throw Error(ExitCode::usage,
+                fmt::format("{} is not a name: letters, digits, '.', '_' and '-', at most 64", quoted(name)));
+}
+
 std::string error_json(const std::string& message) {
   return text_of({{"error", message}});
 }
 
 Actions::Actions(const fs::path& folder, std::string program)
     : folder_(fs::canonical(folder)), program_(std::move(program)), queue_(folder_, program_) {}
+
+void Actions::require_inside(const fs::path& path) const {
+  const auto [end, rest] = std::mismatch(folder_.begin(), folder_.end(), fs::weakly_canonical(path).begin());
+  if (end != folder_.end())
+    throw Error(ExitCode::usage, fmt::format("{} leads out of the folder", path.string()));
+}
 
 Actions::Call Actions::call(std::vector<std::string> arguments,
                             const std::function<bool()>& keep_going) const {
@@ -154,6 +132,7 @@ fs::path Actions::run_path(const std::string& run) const {
   const fs::path path = folder_ / "runs" / run;
   if (!fs::is_directory(fs::symlink_status(path)))
     throw Error(ExitCode::usage, fmt::format("there is no run {}", run));
+  require_inside(path);
   return path;
 }
 
@@ -209,7 +188,7 @@ std::string Actions::replace(const std::string& file, const std::string& version
     const std::lock_guard lock(writing_);
     const fs::path path = case_path(file);
     if (hash_file(path) != version)
-      throw Error(ExitCode::io, fmt::format("{} has changed since the page read it", file));
+      throw Conflict(fmt::format("{} has changed since the page read it", file));
     if (text.size() > 1 << 20) throw Error(ExitCode::usage, "a case file has at most 1 MiB");
     write_file(path, text);
   }
@@ -240,6 +219,12 @@ std::string Actions::create(const std::string& file, const std::string& family) 
   return read(file);
 }
 
+std::string Actions::copy(const std::string& file, const std::string& from) {
+  const std::string text = read_text_file(case_path(from));
+  write_file(new_case_path(file), text);
+  return read(file);
+}
+
 std::string Actions::size(const std::string& file, const std::string& family, double mass, double rate,
                           double height) {
   new_case_path(file);
@@ -248,29 +233,36 @@ std::string Actions::size(const std::string& file, const std::string& family, do
   return read(file);
 }
 
-std::string Actions::shape(const std::string& file, const std::string& pressure, const std::string& nodes) {
-  case_path(file);
-  const unsigned own = ++newest_shape_;
-  const TemporaryFolder out("ripstop-studio");
-  const fs::path folder = out.path / "shape";
-  std::vector<std::string> arguments = {"fabric", file, "--set", "parachute.mesh.cloth_nodes=" + nodes,
-                                        "--out=" + folder.string()};
-  if (!pressure.empty()) arguments.push_back("--pressure=" + pressure);
-  const Call done = call(arguments, [&] { return newest_shape_ == own; });
-  if (newest_shape_ != own) return "";
-  if (done.code != 0 && done.code != static_cast<int>(ExitCode::not_converged)) {
-    const std::size_t at = done.output.rfind("ripstop: ");
-    throw Error(ExitCode::usage, at == std::string::npos ? done.output : done.output.substr(at + 9));
+std::string Actions::shape(const std::string& view, const std::string& file, const std::string& pressure,
+                           const std::string& nodes) {
+  require_name(view);
+  const fs::path path = case_path(file);
+  Overrides overrides;
+  overrides.set.push_back(parse_setting("parachute.mesh.cloth_nodes=" + nodes, "nodes"));
+  std::optional<double> given;
+  if (!pressure.empty()) {
+    const Json number = Json::parse(pressure, nullptr, false);
+    if (!number.is_number())
+      throw Error(ExitCode::usage, fmt::format("the pressure {} is not a number", quoted(pressure)));
+    given = number.get<double>();
   }
-  const ShapeView view = read_shape({{0, folder / "canopy.vtp", folder / "lines.vtp"}});
-  return fmt::format("{{\"result\": {}, \"shape\": {}}}", read_file(folder / "result.json"),
-                     shape_json(view));
+  const std::shared_ptr<LiveShape> shape = shapes_.of(view);
+  return shape->answer(shape->begin(resolve(read_case(path, overrides)), given), first_answer);
 }
 
-std::string Actions::load(const std::string& file, const std::string& mass, const std::string& speed) {
+std::string Actions::later_shape(const std::string& view, unsigned number) {
+  require_name(view);
+  return shapes_.of(view)->answer(number, later_answer);
+}
+
+std::string Actions::load(const std::string& file, const std::string& mass, const std::string& speed,
+                          const std::string& drag) {
   case_path(file);
   const TemporaryFolder out("ripstop-studio");
-  must({"load", file, "--mass=" + mass, "--speed=" + speed, "--out=" + (out.path / "load").string()});
+  std::vector<std::string> arguments = {"load", file, "--mass=" + mass, "--speed=" + speed,
+                                        "--out=" + (out.path / "load").string()};
+  if (!drag.empty()) arguments.push_back("--drag-coefficient=" + drag);
+  must(arguments);
   return read_file(out.path / "load" / "result.json");
 }
 
@@ -287,79 +279,12 @@ std::string Actions::pattern(const std::string& file) {
   return text_of({{"result", parsed(read_file(out.path / "result.json"))}, {"pieces", pieces}});
 }
 
-std::string Actions::jobs() const {
-  Json list = Json::array();
-  for (const Job& job : queue_.list()) {
-    Json j = parsed(job_json(job));
-    const std::vector<std::string> lines = queue_.log(job.name);
-    j["last_line"] = lines.empty() ? "" : lines.back();
-    const fs::path page =
-        job.command == "size" ? folder_ / (job.name + ".html") : folder_ / "runs" / job.name / "report.html";
-    j["report"] = fs::is_regular_file(page);
-    list.push_back(j);
-  }
-  return text_of(list);
-}
-
-void Actions::start(const std::string& request) {
-  const Json j = parsed(request);
-  Job job;
-  try {
-    job.name = j.at("name");
-    job.command = j.at("command");
-    job.arguments = arguments_of(job.command, j.at("options"));
-    if (job.command != "size") job.case_file = j.at("case");
-  } catch (const Json::exception& error) {
-    throw Error(ExitCode::usage, fmt::format("no request of a run: {}", error.what()));
-  }
-  require_name(job.name);
-  if (job.command == "size") {
-    new_case_path(job.name + ".toml");
-    job.arguments.insert(job.arguments.end(), {"--verify", "--out=" + job.name + ".toml"});
-    job.arguments.insert(job.arguments.begin(), "size");
-  } else {
-    case_path(job.case_file);
-    if (fs::exists(fs::symlink_status(folder_ / "runs" / job.name)))
-      throw Error(ExitCode::usage, fmt::format("there is a run {} already", job.name));
-    job.arguments.insert(job.arguments.begin(), {job.command, job.case_file});
-    job.arguments.push_back("--out=runs/" + job.name);
-  }
-  queue_.add(std::move(job));
-}
-
-std::string Actions::log(const std::string& name) const {
-  require_name(name);
-  return text_of({{"lines", queue_.log(name)}});
-}
-
-std::string Actions::exported(const std::string& run, const std::string& format) {
-  if (format != "rocketpy" && format != "openrocket")
-    throw Error(ExitCode::usage, "the format is rocketpy or openrocket");
-  run_path(run);
-  const TemporaryFolder out("ripstop-studio");
-  const fs::path file = out.path / "export";
-  must({"export", format, "runs/" + run, "--out=" + file.string()});
-  return text_of({{"name", run + (format == "rocketpy" ? ".py" : ".orc")}, {"text", read_file(file)}});
-}
-
 std::string Actions::export_pattern(const std::string& file) {
   const std::string name = case_path(file).stem().string() + "-pattern";
   if (fs::is_symlink(fs::symlink_status(folder_ / name)))
     throw Error(ExitCode::usage, fmt::format("{} is a link; remove it first", name));
   must({"pattern", file, "--paper=a4", "--out=" + name});
   return text_of({{"folder", (folder_ / name).string()}});
-}
-
-std::string Actions::report(const std::string& run) const {
-  require_name(run);
-  fs::path path = folder_ / "runs" / run / "report.html";
-  if (!fs::is_regular_file(fs::symlink_status(path))) path = folder_ / (run + ".html");
-  if (!fs::is_regular_file(fs::symlink_status(path)) || fs::file_size(path) > largest_report)
-    throw Error(ExitCode::usage, fmt::format("{} has no report yet", run));
-  const std::string page = read_file(path);
-  if (!is_report(page))
-    throw Error(ExitCode::usage, fmt::format("{} is not a report of Ripstop", path.string()));
-  return page;
 }
 
 }  // namespace ripstop

@@ -2,17 +2,24 @@
 // file; answers are JSON for the page's scripts.
 #pragma once
 
-#include <atomic>
 #include <filesystem>
 #include <functional>
 #include <mutex>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "ripstop/core/error.h"
 #include "ripstop/studio/jobs.h"
+#include "ripstop/studio/live_shape.h"
 
 namespace ripstop {
+
+/// A case file has changed since the page read it.
+struct Conflict : Error {
+  explicit Conflict(const std::string& message) : Error(ExitCode::usage, message) {}
+};
 
 class Actions {
  public:
@@ -30,14 +37,20 @@ class Actions {
   std::string write(const std::string& file, const std::string& version, const std::string& text);
   /// A new case file: a copy of the family's example.
   std::string create(const std::string& file, const std::string& family);
+  /// A new case file: a copy of the case `from`.
+  std::string copy(const std::string& file, const std::string& from);
   /// A new case file by `ripstop size`.
   std::string size(const std::string& file, const std::string& family, double mass, double rate,
                    double height);
 
-  /// Shape under a pressure [Pa], empty: the dynamic pressure of the case. Ends an earlier call, whose answer is
-  /// empty.
-  std::string shape(const std::string& file, const std::string& pressure, const std::string& nodes);
-  std::string load(const std::string& file, const std::string& mass, const std::string& speed);
+  /// Shape of a view under a pressure [Pa], empty: the dynamic pressure of the case. Ends an earlier call of the view.
+  std::string shape(const std::string& view, const std::string& file, const std::string& pressure,
+                    const std::string& nodes);
+  /// Of a shape that was not in equilibrium yet: the same a little later.
+  std::string later_shape(const std::string& view, unsigned number);
+  /// `drag`: the drag coefficient; empty: that of the family.
+  std::string load(const std::string& file, const std::string& mass, const std::string& speed,
+                   const std::string& drag);
   /// Bill of materials and the pieces as SVG.
   std::string pattern(const std::string& file);
 
@@ -48,13 +61,20 @@ class Actions {
   void resume(const std::string& name) { queue_.resume(name); }
   std::string log(const std::string& name) const;
 
-  /// "rocketpy" or "openrocket" of a finished steady run, as text.
+  /// Plots of the tables that a run has written so far, and its last shape unless that is `known`.
+  std::string progress(const std::string& name, const std::string& known) const;
+
+  /// A material from tensile records by `ripstop fit`. `request`: {"bench": {key: value}, "records": [{"name", "base64",
+  /// key: value}], "coupons", "save"}. With "save" campaign and material remain in materials/NAME.
+  std::string fit(const std::string& request) const;
+
+  /// Of a run as text: "rocketpy", "openrocket" and "json" of a finished steady one, "report", "toml".
   std::string exported(const std::string& run, const std::string& format);
   /// DXF, SVG and PDF of the pieces in a new folder; its name.
   std::string export_pattern(const std::string& file);
 
-  /// report.html of a run. Throws Error(usage) if there is none.
-  std::string report(const std::string& run) const;
+  /// report.html of a run, or the comparison of several. Throws Error(usage) if there is none.
+  std::string report(const std::vector<std::string>& runs) const;
 
  private:
   struct Call {
@@ -67,14 +87,23 @@ class Actions {
   std::filesystem::path case_path(const std::string& file) const;
   std::filesystem::path new_case_path(const std::string& file) const;
   std::filesystem::path run_path(const std::string& run) const;
+  std::vector<std::string> arguments_of(const std::string& command, const std::string& options) const;
+  std::filesystem::path report_path(const std::string& run) const;
+  /// Throws Error(usage) for a path that leaves the folder, as by a symbolic link.
+  void require_inside(const std::filesystem::path& path) const;
   std::string replace(const std::string& file, const std::string& version, const std::string& text);
 
   std::filesystem::path folder_;
   std::string program_;
   JobQueue queue_;
-  std::atomic<unsigned> newest_shape_{0};
+  LiveShapes shapes_;
   std::mutex writing_;  // of case files
 };
+
+/// JSON of a request. Throws Error(usage).
+nlohmann::ordered_json parsed(const std::string& text);
+/// Throws Error(usage) for a text that is no name of a file or run.
+void require_name(const std::string& name);
 
 /// JSON {"error": ...} of a message.
 std::string error_json(const std::string& message);

@@ -38,11 +38,23 @@ std::vector<std::string> last_lines(const fs::path& file) {
   return lines;
 }
 
-/// The last line of a failed run that is a message of the program.
+/// runs/.studio, neither of them a link to another place.
+fs::path records_in(const fs::path& folder) {
+  const fs::path runs = folder / "runs", records = runs / ".studio";
+  for (const fs::path& path : {runs, records})
+    if (fs::is_symlink(fs::symlink_status(path)))
+      throw Error(ExitCode::usage, fmt::format("{} is a link; Studio needs a folder there", path.string()));
+  return records;
+}
+
+/// The last message of the program in the output of a failed run, with the problems that it lists.
 std::string message_in(const std::vector<std::string>& lines) {
-  for (auto line = lines.rbegin(); line != lines.rend(); ++line)
-    if (line->starts_with("ripstop: ")) return line->substr(9);
-  return lines.empty() ? "" : lines.back();
+  const auto last = std::find_if(lines.rbegin(), lines.rend(),
+                                 [](const std::string& line) { return line.starts_with("ripstop: "); });
+  if (last == lines.rend()) return lines.empty() ? "" : lines.back();
+  std::string message = last->substr(9);
+  for (auto line = last.base(); line != lines.end(); ++line) message += "\n" + *line;
+  return message;
 }
 
 }  // namespace
@@ -68,7 +80,7 @@ Job job_from_json(const std::string& text) {
 }
 
 JobQueue::JobQueue(fs::path folder, std::string program)
-    : folder_(std::move(folder)), program_(std::move(program)), records_(folder_ / "runs" / ".studio") {
+    : folder_(std::move(folder)), program_(std::move(program)), records_(records_in(folder_)) {
   std::vector<std::pair<fs::file_time_type, Job>> found;
   for (const fs::directory_entry& entry : fs::directory_iterator(records_.path())) {
     if (entry.path().extension() != ".json" || !entry.is_regular_file()) continue;

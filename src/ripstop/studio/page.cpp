@@ -17,6 +17,8 @@ RIPSTOP_STUDIO_FILE(ripstop_studio_skeleton, "studio.html")
 RIPSTOP_STUDIO_FILE(ripstop_studio_css, "studio.css")
 RIPSTOP_STUDIO_FILE(ripstop_studio_server, "server.js")
 RIPSTOP_STUDIO_FILE(ripstop_studio_form, "form.js")
+RIPSTOP_STUDIO_FILE(ripstop_studio_shape, "shape.js")
+RIPSTOP_STUDIO_FILE(ripstop_studio_fitting, "fitting.js")
 RIPSTOP_STUDIO_FILE(ripstop_studio_design, "design.js")
 RIPSTOP_STUDIO_FILE(ripstop_studio_runs, "runs.js")
 RIPSTOP_STUDIO_FILE(ripstop_studio_main, "main.js")
@@ -51,7 +53,9 @@ std::string studio_page(const std::string& nonce) {
     if (std::string_view(script.name) != "main.js") add(script.text);
   for (const Asset& script : std::vector<Asset>{{"server.js", RIPSTOP_EMBEDDED_TEXT(ripstop_studio_server)},
                                                 {"form.js", RIPSTOP_EMBEDDED_TEXT(ripstop_studio_form)},
+                                                {"shape.js", RIPSTOP_EMBEDDED_TEXT(ripstop_studio_shape)},
                                                 {"design.js", RIPSTOP_EMBEDDED_TEXT(ripstop_studio_design)},
+                                                {"fitting.js", RIPSTOP_EMBEDDED_TEXT(ripstop_studio_fitting)},
                                                 {"runs.js", RIPSTOP_EMBEDDED_TEXT(ripstop_studio_runs)},
                                                 {"main.js", RIPSTOP_EMBEDDED_TEXT(ripstop_studio_main)}})
     add(page_file(script));

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "ripstop/case/case.h"
 #include "ripstop/case/quantity_keys.h"
@@ -24,7 +25,8 @@ using httplib::Request;
 using httplib::Response;
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t largest_body = 2 << 20;  // [bytes]
+constexpr std::size_t largest_body = 2 << 20, largest_records = 24 << 20;  // [bytes]
+constexpr const char* records_path = "/api/material";
 constexpr const char* json_type = "application/json; charset=utf-8";
 constexpr const char* page_type = "text/html; charset=utf-8";
 
@@ -80,8 +82,10 @@ template <class Action>
 void answer(Response& response, const Action& action) {
   try {
     response.set_content(action(), json_type);
+  } catch (const Conflict& error) {
+    refuse(response, 409, message_of(error));
   } catch (const Error& error) {
-    refuse(response, error.code() == ExitCode::io ? 409 : 400, message_of(error));
+    refuse(response, error.code() == ExitCode::io ? 507 : 400, message_of(error));
   } catch (const std::exception& error) {
     refuse(response, 500, error.what());
   }
@@ -96,7 +100,7 @@ struct StudioServer::Parts {
   httplib::Server server;
   std::string token = random_word(), host;
   std::mutex keys_mutex;
-  std::map<std::string, std::string> view_keys;  // key -> run
+  std::map<std::string, std::vector<std::string>> view_keys;  // key -> runs
 
   bool admitted(const Request& request, Response& response) const;
   void add_pages();
@@ -133,9 +137,10 @@ bool StudioServer::Parts::admitted(const Request& request, Response& response) c
     if (!request.get_header_value("Content-Type").starts_with("application/json"))
       return refuse(response, 415, "a body is JSON"), false;
     const std::string length = request.get_header_value("Content-Length");
-    if (length.empty() || length.size() > 7 || length.find_first_not_of("0123456789") != std::string::npos ||
-        std::stoul(length) > largest_body)
-      return refuse(response, 413, "a body has at most 2 MiB"), false;
+    const std::size_t largest = request.path == records_path ? largest_records : largest_body;
+    if (length.empty() || length.size() > 8 || length.find_first_not_of("0123456789") != std::string::npos ||
+        std::stoul(length) > largest)
+      return refuse(response, 413, fmt::format("a body has at most {} MiB", largest >> 20)), false;
   }
   if (request.path == "/view") return true;  // has a key of its own
   const std::string given =
@@ -158,19 +163,19 @@ void StudioServer::Parts::add_pages() {
   });
   // A report in a frame of its own origin: its scripts run, and reach neither the page nor the token.
   server.Get("/view", [this](const Request& request, Response& response) {
-    std::string run;
+    std::vector<std::string> runs;
     {
       const std::lock_guard lock(keys_mutex);
       const auto found = view_keys.find(request.get_param_value("key"));
-      if (found != view_keys.end()) run = found->second;
+      if (found != view_keys.end()) runs = found->second;
     }
-    if (run.empty()) return refuse(response, 403, "wrong key: open the report in Studio");
+    if (runs.empty()) return refuse(response, 403, "wrong key: open the report in Studio");
     try {
       response.set_header(
           "Content-Security-Policy",
           "sandbox allow-scripts allow-modals; default-src 'none'; script-src 'unsafe-inline'; "
           "style-src 'unsafe-inline'; img-src data: blob:; frame-ancestors 'self'");
-      response.set_content(actions.report(run), page_type);
+      response.set_content(actions.report(runs), page_type);
     } catch (const Error& error) {
       refuse(response, 404, error.what());
     }
@@ -183,12 +188,18 @@ void StudioServer::Parts::add_reading() {
   get("/api/case", [this](const Request& r) { return actions.read(parameter(r, "file")); });
   get("/api/pattern", [this](const Request& r) { return actions.pattern(parameter(r, "file")); });
   get("/api/load", [this](const Request& r) {
-    return actions.load(parameter(r, "file"), parameter(r, "mass"), parameter(r, "speed"));
+    return actions.load(parameter(r, "file"), parameter(r, "mass"), parameter(r, "speed"),
+                        r.get_param_value("drag"));
   });
   get("/api/shape", [this](const Request& r) {
-    const std::string shape =
-        actions.shape(parameter(r, "file"), r.get_param_value("pressure"), parameter(r, "nodes"));
-    return shape.empty() ? std::string("{\"superseded\": true}") : shape;
+    return actions.shape(parameter(r, "view"), parameter(r, "file"), r.get_param_value("pressure"),
+                         parameter(r, "nodes"));
+  });
+  get("/api/shape/later", [this](const Request& r) {
+    const std::string number = parameter(r, "number");
+    if (number.empty() || number.size() > 9 || number.find_first_not_of("0123456789") != std::string::npos)
+      throw Error(ExitCode::usage, "the number of a shape is a whole number");
+    return actions.later_shape(parameter(r, "view"), static_cast<unsigned>(std::stoul(number)));
   });
 }
 
@@ -201,6 +212,7 @@ void StudioServer::Parts::add_writing() {
        [this](const Body& b) { return actions.write(b.text("file"), b.text("version"), b.text("text")); });
   post("/api/case/create",
        [this](const Body& b) { return actions.create(b.text("file"), b.text("family")); });
+  post("/api/case/copy", [this](const Body& b) { return actions.copy(b.text("file"), b.text("from")); });
   post("/api/case/size", [this](const Body& b) {
     return actions.size(b.text("file"), b.text("family"), b.number("mass"), b.number("rate"),
                         b.number("height"));
@@ -211,14 +223,20 @@ void StudioServer::Parts::add_runs() {
   get("/api/jobs", [this](const Request&) { return actions.jobs(); });
   get("/api/log", [this](const Request& r) { return actions.log(parameter(r, "name")); });
   get("/api/report", [this](const Request& r) {
-    const std::string run = parameter(r, "run");
-    actions.report(run);
+    std::vector<std::string> runs;
+    for (std::size_t i = 0; i < r.get_param_value_count("run"); ++i)
+      runs.push_back(r.get_param_value("run", i));
+    actions.report(runs);
     const std::string key = random_word();
     const std::lock_guard lock(keys_mutex);
     if (view_keys.size() > 1000) view_keys.clear();
-    view_keys[key] = run;
+    view_keys[key] = runs;
     return Json{{"address", "/view?key=" + key}}.dump();
   });
+  get("/api/progress", [this](const Request& r) {
+    return actions.progress(parameter(r, "name"), r.get_param_value("known"));
+  });
+  post(records_path, [this](const Body& b) { return actions.fit(b.json.dump()); });
   get("/api/export",
       [this](const Request& r) { return actions.exported(parameter(r, "run"), parameter(r, "format")); });
   post("/api/pattern", [this](const Body& b) { return actions.export_pattern(b.text("file")); });
@@ -231,7 +249,8 @@ void StudioServer::Parts::add_runs() {
 StudioServer::StudioServer(const std::filesystem::path& folder, const std::string& program, int port)
     : parts_(std::make_unique<Parts>(folder, program)) {
   httplib::Server& server = parts_->server;
-  server.set_payload_max_length(largest_body);
+  server.set_payload_max_length(largest_records);
+  server.set_tcp_nodelay(true);  // head and body are two writes
   server.set_keep_alive_max_count(1000);
   server.set_keep_alive_timeout(2);  // [s]; a stop waits for it
   // By default the library lets a second server share the port.

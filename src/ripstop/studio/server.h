@@ -8,7 +8,8 @@
 
 namespace ripstop {
 
-/// Requests need a random token, this server's own Host and no other Origin; bodies are JSON of at most 2 MiB.
+/// Requests need a random token, this server's own Host and no other Origin; bodies are JSON of at most 2 MiB, or 24 MiB of
+/// tensile records.
 class StudioServer {
  public:
   /// `program`: path of this program, for the child processes. `port` 0: a free one. Throws Error(usage) for a folder

@@ -50,7 +50,7 @@ class Controls {
       this.quantities.map((one) => element("option", { value: one.key, selected: one.key === this.key }, withUnit(one))));
     this.clothBar = colourBar(Colours.clothScale(), "cloth");
     this.peak = element("button", { type: "button", onclick: () => this.probeHighest() }, "Show the maximum");
-    this.side.append(element("fieldset", {}, element("legend", {}, "Cloth"), this.choice, this.clothBar.node,
+    this.side.append(element("fieldset", { hidden: !this.quantities.length }, element("legend", {}, "Cloth"), this.choice, this.clothBar.node,
       box("full range with isolated peaks", false, (on) => { this.fullRange = on; this.recolour(); }, "range"), element("div", { class: "row" }, this.peak)));
     if (this.run.shape.frames.some((frame) => frame.tension)) {
       this.lineBar = colourBar(Colours.clothScale(), "lines");

@@ -154,6 +154,7 @@ const Page = (() => {
     window.addEventListener("resize", () => figures.forEach((figure) => figure.resize()));
     document.getElementById("print").addEventListener("click", () => window.print());
     document.documentElement.dataset.ready = "yes";
+    if (window.parent !== window) window.parent.postMessage("report ready", "*");  // to Studio
   }
 
   return { start, selected: 0, sections, shown: () => sections[Page.selected], shapes: () => shapes };

@@ -95,7 +95,7 @@ ReportSeries series_of(const char* name, const Rows& rows, Value value) {
   return thinned(std::move(series));
 }
 
-void add_plots(ReportRun& run, const Before& before, const std::vector<FreeFlightRow>& rows) {
+std::vector<ReportPlot> plots_from(const Before& before, const std::vector<FreeFlightRow>& rows) {
   const auto flown = [&](const char* name, auto value) { return series_of(name, rows, value); };
   ReportPlot load = over_time("load", "Force of lines and riser on the payload", {"force", "N"});
   if (!before.load.empty())
@@ -117,7 +117,7 @@ void add_plots(ReportRun& run, const Before& before, const std::vector<FreeFligh
                   flown("height", [](const FreeFlightRow& r) { return r.payload.z; })};
   ReportPlot mouth = over_time("mouth", "Area of the mouth", {"area", "m²"});
   mouth.series = {flown("mouth", [](const FreeFlightRow& r) { return r.mouth_area; })};
-  run.plots = {std::move(load), std::move(angle), std::move(speed), std::move(place), std::move(mouth)};
+  return {std::move(load), std::move(angle), std::move(speed), std::move(place), std::move(mouth)};
 }
 
 /// A number of the group "handover" of result.json.
@@ -134,6 +134,10 @@ bool is_flight(const ReportRun& run) {
                      [](const ReportValue& value) { return value.key == "descent_drag_coefficient"; });
 }
 
+std::vector<ReportPlot> flight_plots(const fs::path& folder) {
+  return plots_from(inflation_in(folder), read_rows<FreeFlightRow>(folder / "path.csv"));
+}
+
 void add_flight(ReportRun& run, const Settings& resolved, const fs::path& folder) {
   run.kind = "flight";
   run.headline = {"rate_of_descent_m_s",  "descent_drag_coefficient", "axial_drag_coefficient",
@@ -142,7 +146,7 @@ void add_flight(ReportRun& run, const Settings& resolved, const fs::path& folder
                   "weakest_member",       "margin_of_safety",         "ended_by"};
   const auto rows = read_rows<FreeFlightRow>(folder / "path.csv");
   const Before before = inflation_in(folder);
-  add_plots(run, before, rows);
+  run.plots = plots_from(before, rows);
   const double began = handover(folder, "time_s").value_or(0),
                below = handover(folder, "path_angle_deg").value_or(90) * std::numbers::pi / 180;
   std::vector<ShapeFiles> files = before.shapes;

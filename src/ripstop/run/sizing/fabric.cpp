@@ -51,6 +51,13 @@ std::string to_json(const FabricResult& result) {
 
 FabricSolution run_fabric(const Settings& resolved, std::optional<double> pressure,
                           const std::function<void(const RelaxProgress&)>& report) {
+  RelaxWatch watch;
+  if (report) watch = [&](const RelaxProgress& progress, const auto&) { report(progress); };
+  return run_fabric_from(resolved, pressure, {}, watch);
+}
+
+FabricSolution run_fabric_from(const Settings& resolved, std::optional<double> pressure,
+                               const std::vector<Vec3>& start, const RelaxWatch& watch) {
   if (pressure) require_within("pressure (Pa)", *pressure, 1e-9, highest_pressure);
   FabricSolution solution;
   auto& [r, mesh, shape, stress, tensions] = solution;
@@ -64,13 +71,14 @@ FabricSolution run_fabric(const Settings& resolved, std::optional<double> pressu
   cloth_options.linear = resolved.coupling().linear;
   const ClothPtr cloth = make_cloth(mesh, cloth_options);
   ClothState state = start_state(*cloth);
+  if (!start.empty()) set_positions(state, *cloth, start);
   const Loads loads{std::vector<double>(mesh.cell_count(), r.pressure), {}};
   RelaxOptions relax_options;
   relax_options.tolerance = r.tolerance;
   ThreadTeam team(resolved.coupling().threads);
   const auto begin = std::chrono::steady_clock::now();
   const RelaxResult relaxed = relaxed_under(
-      resolved, r.pressure, [&] { return relax(state, *cloth, loads, relax_options, team, report); });
+      resolved, r.pressure, [&] { return watched_relax(state, *cloth, loads, relax_options, team, watch); });
   r.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   shape = positions(state, *cloth);
   stress = cell_stress(*cloth, state);
@@ -92,17 +100,26 @@ FabricSolution run_fabric(const Settings& resolved, std::optional<double> pressu
   return solution;
 }
 
+VtkSurface fabric_canopy(const FabricSolution& solution) {
+  const auto& [result, mesh, shape, stress, tensions] = solution;
+  VtkSurface canopy = canopy_surface(mesh, shape);
+  for (VtkArray& array : stress_arrays(mesh, shape, stress)) canopy.cell_arrays.push_back(std::move(array));
+  return canopy;
+}
+
+VtkSurface fabric_lines(const FabricSolution& solution) {
+  VtkSurface lines = spring_lines(solution.mesh, solution.shape);
+  lines.cell_arrays.push_back(vtk_array("tension_n", solution.tensions));
+  return lines;
+}
+
 void write_fabric(const std::filesystem::path& folder, const FabricSolution& solution) {
   const auto& [result, mesh, shape, stress, tensions] = solution;
   make_results_folder(folder);
   std::vector<double> mises;
   for (const CellStress& s : stress) mises.push_back(s.von_mises);
-  VtkSurface canopy = canopy_surface(mesh, shape);
-  for (VtkArray& array : stress_arrays(mesh, shape, stress)) canopy.cell_arrays.push_back(std::move(array));
-  write_vtp(folder / "canopy.vtp", canopy);
-  VtkSurface lines = spring_lines(mesh, shape);
-  lines.cell_arrays.push_back(vtk_array("tension_n", tensions));
-  write_vtp(folder / "lines.vtp", lines);
+  write_vtp(folder / "canopy.vtp", fabric_canopy(solution));
+  write_vtp(folder / "lines.vtp", fabric_lines(solution));
   write_canopy_picture(folder / "canopy.png", mesh, shape,
                        {fmt::format("{} under {:.4g} Pa", result.title, result.pressure),
                         "von Mises stress [N/m]",

@@ -12,7 +12,9 @@
 #include "ripstop/canopy/stress.h"
 #include "ripstop/case/settings.h"
 #include "ripstop/cloth/cloth.h"
+#include "ripstop/cloth/watched_relaxation.h"
 #include "ripstop/core/members.h"
+#include "ripstop/output/vtk.h"
 
 namespace ripstop {
 
@@ -73,6 +75,15 @@ struct FabricSolution {
 /// Equilibrium under `pressure` [Pa]; absent: the case's dynamic pressure. Convergence is not promised.
 FabricSolution run_fabric(const Settings& resolved, std::optional<double> pressure,
                           const std::function<void(const RelaxProgress&)>& report = {});
+
+/// The same from other positions of its nodes than those of the mesh; the path to an equilibrium, not its accuracy,
+/// depends on them.
+FabricSolution run_fabric_from(const Settings& resolved, std::optional<double> pressure,
+                               const std::vector<Vec3>& start, const RelaxWatch& watch);
+
+/// Cloth with its stresses, and lines with their tension.
+VtkSurface fabric_canopy(const FabricSolution& solution);
+VtkSurface fabric_lines(const FabricSolution& solution);
 
 /// canopy.png, canopy.vtp, lines.vtp and result.json.
 void write_fabric(const std::filesystem::path& folder, const FabricSolution& solution);

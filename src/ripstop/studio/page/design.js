@@ -9,19 +9,28 @@ class Design {
     this.history = new Map();  // file -> {undo: [text], redo: [text]}
     this.busy = Promise.resolve();
     this.form = new Form(schema, (key, value) => this.change(key, value));
-    this.pressure = element("input", { inputmode: "decimal", "aria-label": "Dynamic pressure in Pa", "data-control": "pressure", onchange: () => this.drawShape() });
-    this.timing = element("span", { class: "muted", role: "status", "data-part": "timing" });
-    this.shapes = null;
-    this.stage = element("div");
+    const page = `page${Math.random().toString(36).slice(2)}`;
+    this.shape = new ShapePane(`${page}-a`);
+    this.other = new ShapePane(`${page}-b`);
+    this.shape.onshown = this.other.onshown = () => this.linkViews();
+    this.against = null;  // the design that this one is compared with, as the server read it
+    this.pressure = element("input", { inputmode: "decimal", "aria-label": "Dynamic pressure in Pa", "data-control": "pressure", onchange: () => this.drawShapes() });
+    this.choice = element("select", { "data-control": "against", onchange: () => this.compare(this.choice.value) }, element("option", { value: "" }, "no other"));
+    this.names = [element("h2", { hidden: true }), element("h2", { hidden: true })];
+    this.panes = element("div", { class: "panes" },
+      element("section", { "aria-label": "Shape of the design" }, this.names[0], this.shape.timing, this.shape.node),
+      this.otherPane = element("section", { "aria-label": "Shape of the other design", hidden: true }, this.names[1], this.other.timing, this.other.node));
     this.mass = this.asked("mass", "2.4");
     this.speed = this.asked("speed", "20");
+    this.drag = this.asked("drag-coefficient", "");
+    this.drag.placeholder = "of the family";
     this.facts = element("div", { "data-part": "facts" });
     this.loads = element("div", { "data-part": "loads" });
     this.node = element("div", { class: "view design", id: "view-design" }, this.form.node,
       element("div", { class: "middle" },
-        element("div", { class: "above" }, element("label", {}, "Dynamic pressure [Pa] ", this.pressure), this.timing), this.stage),
+        element("div", { class: "above" }, element("label", {}, "Dynamic pressure [Pa] ", this.pressure), element("label", {}, "Compare with ", this.choice)), this.panes),
       element("aside", { class: "numbers", "aria-label": "Numbers" }, this.facts, element("h2", {}, "Descent and opening"),
-        element("div", { class: "fields" }, element("label", {}, "Payload mass [kg]", this.mass), element("label", {}, "Deployment speed [m/s]", this.speed)), this.loads));
+        element("div", { class: "fields" }, element("label", {}, "Payload mass [kg]", this.mass), element("label", {}, "Deployment speed [m/s]", this.speed), element("label", {}, "Drag coefficient on S0", this.drag)), this.loads));
     this.pieces = element("div", { class: "pieces" });
     this.bill = element("div", { class: "tables" });
     this.patternNode = element("div", { class: "view", id: "view-pattern" },
@@ -36,14 +45,72 @@ class Design {
     return element("input", { inputmode: "decimal", "data-control": name, value: usual, onchange: () => this.drawLoads() });
   }
 
+  /** The case files of the folder, of which one can be compared with this. */
+  files(names) {
+    const others = names.filter((name) => name !== this.file), known = JSON.stringify(others);
+    if (this.choice.dataset.names === known) return;
+    this.choice.dataset.names = known;
+    this.choice.replaceChildren(element("option", { value: "" }, "no other"), ...others.map((name) => element("option", { value: name }, name)));
+    this.choice.value = others.includes(this.against?.file) ? this.against.file : "";
+    if (this.against && !this.choice.value) this.compare("");
+  }
+
+  async compare(file) {
+    try {
+      this.against = file ? await Server.get("/api/case", { file }) : null;
+    } catch (error) {
+      this.against = null;
+      this.notice(error.message);
+    }
+    this.choice.value = this.against?.file ?? "";
+    this.node.classList.toggle("two", Boolean(this.against));
+    this.otherPane.hidden = !this.against;
+    this.names.forEach((node) => { node.hidden = !this.against; });
+    this.names[0].textContent = this.file;
+    this.names[1].textContent = file;
+    if (this.against) this.other.draw(file, this.pressure.value.trim());
+    this.otherPacked = undefined;
+    if (this.data.check.valid) this.showFacts();
+    this.drawLoads();
+    if (!this.against) return;
+    try {
+      this.otherPacked = 1000 * (await Server.get("/api/pattern", { file })).result.packed_volume_m3;
+      if (this.against?.file === file) this.showFacts();
+    } catch { this.otherPacked = undefined; }
+  }
+
+  /** Both shapes are seen from one side, in one scale. */
+  linkViews() {
+    const [a, b] = [this.shape, this.other];
+    for (const [from, to] of [[a, b], [b, a]]) if (from.section && !from.linked) {
+      from.linked = true;
+      from.section.viewer.controls.addEventListener("change", () => {
+        if (!this.against || this.following) return;
+        this.following = true;
+        to.follow(from);
+        this.following = false;
+      });
+    }
+    if (this.against && !this.following) {
+      this.following = true;
+      b.follow(a);
+      this.following = false;
+    }
+  }
+
   past() {
     if (!this.history.has(this.file)) this.history.set(this.file, { undo: [], redo: [] });
     return this.history.get(this.file);
   }
 
   async open(file) {
+    if (this.against?.file === file) await this.compare("");
     this.file = file;
-    this.show(await Server.get("/api/case", { file }));
+    this.names[0].textContent = file;
+    this.choice.dataset.names = "";
+    const data = await Server.get("/api/case", { file });
+    if (this.file !== file) return;
+    this.show(data);
     const mass = this.data.check.case?.payload?.mass_kg;
     if (mass !== undefined) this.mass.value = mass;
     this.draw();
@@ -99,8 +166,9 @@ class Design {
 
   /** The file was changed by another program. */
   async reread() {
-    const before = this.data.text;
-    this.show(await Server.get("/api/case", { file: this.file }));
+    const before = this.data.text, data = await Server.get("/api/case", { file: this.data.file });
+    if (data.file !== this.file) return;  // another case has been chosen
+    this.show(data);
     if (before !== this.data.text) {
       this.remember(before);
       this.buttons();
@@ -126,96 +194,86 @@ class Design {
     this.buttons();
     const problems = data.check.problems?.length ?? 0, warnings = data.check.warnings?.length ?? 0;
     this.state(data.check.valid ? (warnings ? `${warnings} warning${warnings > 1 ? "s" : ""}` : "no problems") : `${problems} problem${problems === 1 ? "" : "s"}`);
-    if (data.check.valid) this.showFacts(data.check);
+    if (data.check.valid) this.showFacts();
   }
 
-  static table(rows) {
-    return element("table", {}, element("tbody", {}, rows.filter((row) => row[1] !== undefined && row[1] !== null && !Number.isNaN(row[1])).map(([text, value, unit, apart]) =>
-      element("tr", { class: apart ? "apart" : undefined }, element("td", {}, text), element("td", {}, typeof value === "number" ? Numbers.shown(value, 4) : value, unit ? ` ${unit}` : "")))));
+  /** Rows [text, value, unit, less important] as a table; with those of another design next to them. */
+  static table(rows, others) {
+    const shown = (value, unit) => [typeof value === "number" ? Numbers.shown(value, 4) : value ?? "–", unit && !others ? ` ${unit}` : ""];
+    const known = (row) => row && row[1] !== undefined && row[1] !== null && !Number.isNaN(row[1]);
+    const list = rows.filter(known);
+    for (const row of others ?? []) if (known(row) && !list.some((one) => one[0] === row[0])) list.push([row[0], undefined, row[2], row[3]]);
+    return element("table", {}, element("tbody", {}, list.map(([text, value, unit, apart]) => {
+      const other = others?.find((row) => row[0] === text)?.[1];
+      const share = typeof value === "number" && value > 0 && other > 0 && other !== value ? `${other > value ? "+" : "−"}${Numbers.shown(Math.abs(100 * (other / value - 1)), 2)} %` : "";
+      return element("tr", { class: apart ? "apart" : undefined }, element("td", {}, text, others && unit ? ` [${unit}]` : ""), element("td", {}, shown(value, unit)),
+        others ? [element("td", {}, shown(other)), element("td", {}, share)] : null);
+    })));
   }
 
   static remarks(title, texts) {
     return element("details", { hidden: !texts.length }, element("summary", {}, `${title} (${texts.length})`), element("ul", {}, texts.map((text) => element("li", {}, text))));
   }
 
-  showFacts(check) {
+  static factRows(check, packed) {
     const mass = check.mass_kg;
-    this.facts.replaceChildren(element("h2", {}, "Parachute"), Design.table([
-      ["nominal area", check.nominal_area_m2, "m²"], ["vent", check.vent_area_m2, "m²"], ["geometric porosity", 100 * check.geometric_porosity, "%"],
+    return [["nominal area", check.nominal_area_m2, "m²"], ["vent", check.vent_area_m2, "m²"], ["geometric porosity", 100 * check.geometric_porosity, "%"],
       ["mass", 1000 * mass.total, "g"], ["cloth", 1000 * mass.cloth, "g", true], ["tape", 1000 * mass.tape, "g", true], ["lines", 1000 * mass.lines, "g", true], ["riser", 1000 * mass.riser, "g", true],
-      ["packed volume", this.packed, "l"], ["air", check.density_kg_m3, "kg/m³"], ["nodes of a run", check.nodes], ["cells of its flow", check.flow_cells],
-      ["estimated core time", check.core_time_s / 60, "min"]]),
-      Design.remarks("Warnings", check.warnings));
+      ["packed volume", packed, "l"], ["air", check.density_kg_m3, "kg/m³"], ["nodes of a run", check.nodes], ["cells of its flow", check.flow_cells],
+      ["estimated core time", check.core_time_s / 60, "min"]];
+  }
+
+  showFacts() {
+    const check = this.data.check, other = this.against?.check.valid ? Design.factRows(this.against.check, this.otherPacked) : undefined;
+    this.facts.replaceChildren(element("h2", {}, "Parachute"), other ? element("p", { class: "muted" }, `${this.file}, then ${this.against.file}`) : "",
+      Design.table(Design.factRows(check, this.packed), other), Design.remarks("Warnings", check.warnings));
   }
 
   draw() {
     if (!this.data.check.valid) return;
     const check = this.data.check;
     this.pressure.placeholder = Numbers.shown(0.5 * check.density_kg_m3 * check.speed_m_s ** 2, 4);
-    this.drawShape();
+    this.shape.draw(this.file, this.pressure.value.trim());
     this.drawLoads();
     this.drawPattern();
   }
 
-  async drawShape() {
-    if (!this.data.check.valid) return;
-    const begin = performance.now(), own = (this.shapeNumber = (this.shapeNumber ?? 0) + 1);
-    const text = this.pressure.value.trim(), request = { file: this.file, nodes: 3000 };
-    if (text) request.pressure = text;
-    this.timing.textContent = "computing the shape";
-    try {
-      const answer = await Server.get("/api/shape", request);
-      if (answer.superseded && own === this.shapeNumber) setTimeout(() => this.drawShape(), 300);  // by another page
-      if (answer.superseded || own !== this.shapeNumber) return;
-      await this.showShape(answer);
-      const r = answer.result;
-      this.timing.textContent = `${r.nodes} nodes under ${Numbers.shown(r.pressure_pa, 4)} Pa in ${((performance.now() - begin) / 1000).toFixed(2)} s · projected diameter ${Numbers.shown(r.projected_diameter_m, 4)} m`
-        + ` · highest line tension ${Numbers.shown(r.max_line_tension_n, 3)} N${r.converged ? "" : " · not in equilibrium"}`;
-      this.timing.dataset.file = this.file;
-      this.timing.dataset.shape = own;
-    } catch (error) {
-      if (own === this.shapeNumber) this.timing.textContent = error.message;
-    }
+  /** In the colours of another theme. */
+  redraw() {
+    this.shape.redraw();
+    this.other.redraw();
   }
 
-  async showShape(answer) {
-    Colours.setCloth(answer.shape.colours);
-    await Data.unpackAll(answer.shape);
-    try {
-      this.shapes ??= new ShapeSection();
-    } catch {
-      this.stage.replaceChildren(element("p", { class: "callout" }, "The 3D view needs WebGL, which this browser does not support."));
-      return;
-    }
-    if (!this.shapes.node.isConnected) this.stage.replaceWith(this.shapes.node);
-    const viewer = this.shapes.viewer, before = this.controls;
-    const look = before && { offset: viewer.camera.position.clone().sub(viewer.controls.target) };
-    if (look) look.share = look.offset.length() / viewer.fitting(look.offset.clone().normalize());
-    this.controls = new Controls({ shape: answer.shape }, viewer, new Clock(0));
-    if (before && this.controls.quantities.some((one) => one.key === before.key)) this.controls.key = before.key;
-    this.shapes.show(this.controls);
-    if (!look) return;
-    const toward = look.offset.normalize();  // seen as before, in proportion to the new size
-    viewer.camera.position.copy(viewer.middle).addScaledVector(toward, look.share * viewer.fitting(toward));
-    viewer.controls.update();
-    viewer.draw();
+  drawShapes() {
+    if (this.data.check.valid) this.shape.draw(this.file, this.pressure.value.trim());
+    if (this.against) this.other.draw(this.against.file, this.pressure.value.trim());
+  }
+
+  static loadRows(load) {
+    const stage = load.stages[0];
+    return {
+      descent: [["descent", load.steady_speed_m_s, "m/s"], ["drag coefficient", load.drag_coefficient], ["filling time", stage.filling_time_s, "s"]],
+      methods: stage.methods.map((method) => [method.method, method.load_n, "N", !method.applies]),
+      margins: [["design load", load.design_load_n, "N"], ["trajectory peak", load.peak_load_n, "N"], ...(load.margins?.members ?? []).map((one) => [`margin of safety, ${one.member}`, one.margin_of_safety])],
+    };
   }
 
   async drawLoads() {
     if (!this.data?.check.valid) return;
-    const own = (this.loadNumber = (this.loadNumber ?? 0) + 1);
+    const own = (this.loadNumber = (this.loadNumber ?? 0) + 1), against = this.against;
+    const ask = (file) => Server.get("/api/load", { file, mass: this.mass.value.trim(), speed: this.speed.value.trim(), drag: this.drag.value.trim() });
     try {
-      const load = await Server.get("/api/load", { file: this.file, mass: this.mass.value.trim(), speed: this.speed.value.trim() });
+      const load = await ask(this.file), rows = Design.loadRows(load);
+      const other = against?.check.valid ? Design.loadRows(await ask(against.file)) : {};
       if (own !== this.loadNumber) return;
-      const stage = load.stages[0], rows = [["descent", load.steady_speed_m_s, "m/s"], ["drag coefficient", load.drag_coefficient], ["filling time", stage.filling_time_s, "s"]];
-      const methods = stage.methods.map((method) => [method.method, method.load_n, "N", !method.applies]);
-      const margins = (load.margins?.members ?? []).map((one) => [`margin of safety, ${one.member}`, one.margin_of_safety]);
-      this.loads.replaceChildren(Design.table(rows), element("h2", {}, "Opening load by method"), Design.table(methods),
-        element("h2", {}, "Design load and margins"), Design.table([["design load", load.design_load_n, "N"], ["trajectory peak", load.peak_load_n, "N"], ...margins]),
-        Design.remarks("Remarks", load.warnings));
+      this.loads.replaceChildren(Design.table(rows.descent, other.descent), element("h2", {}, "Opening load by method"), Design.table(rows.methods, other.methods),
+        element("h2", {}, "Design load and margins"), Design.table(rows.margins, other.margins), Design.remarks("Remarks", load.warnings));
       this.loads.dataset.file = this.file;
+      this.loads.dataset.against = against?.file ?? "";
     } catch (error) {
-      if (own === this.loadNumber) this.loads.replaceChildren(element("p", { class: "problem" }, error.message));
+      if (own !== this.loadNumber) return;
+      this.loads.replaceChildren(element("p", { class: "problem" }, error.message));
+      this.loads.dataset.file = this.file;
     }
   }
 
@@ -225,7 +283,7 @@ class Design {
       const pattern = await Server.get("/api/pattern", { file: this.file });
       if (own !== this.patternNumber) return;
       this.packed = 1000 * pattern.result.packed_volume_m3;
-      if (this.data.check.valid) this.showFacts(this.data.check);
+      if (this.data.check.valid) this.showFacts();
       this.bill.replaceChildren(Tables.plain({ id: "bill", title: "Bill of materials", note: "Cloth in m², tape and lines in m.",
         columns: ["part", "material", "count", "finished", "cut", "mass [g]"].map((text) => ({ text, unit: "" })),
         rows: pattern.result.bill.map((row) => [row.part, row.material, String(row.count), row.finished.toPrecision(4), row.cut.toPrecision(4), (1000 * row.mass_kg).toPrecision(4)]) }));

@@ -3,8 +3,8 @@
 
 const Studio = (() => {
   const byId = (id) => document.getElementById(id);
-  const views = [["design", "Design"], ["pattern", "Pattern"], ["text", "Text"], ["runs", "Runs"], ["report", "Report"]];
-  let design, runs, frame, shown, folder;
+  const views = [["design", "Design"], ["pattern", "Pattern"], ["text", "Text"], ["materials", "Materials"], ["runs", "Runs"], ["report", "Report"]];
+  let design, runs, fitting, frame, shown, folder;
 
   function notice(text) {
     const node = byId("notice");
@@ -14,7 +14,7 @@ const Studio = (() => {
 
   function show(name) {
     shown = name;
-    const nodes = { design: design.node, pattern: design.patternNode, text: design.textNode, runs: runs.node, report: frame };
+    const nodes = { design: design.node, pattern: design.patternNode, text: design.textNode, materials: fitting.node, runs: runs.node, report: frame };
     byId("main").replaceChildren(nodes[name]);
     for (const tab of byId("views").children) {
       tab.setAttribute("aria-selected", String(tab.dataset.view === name));
@@ -35,10 +35,12 @@ const Studio = (() => {
     });
   }
 
-  async function report(run) {
+  async function report(...names) {
     try {
-      const { address } = await Server.get("/api/report", { run });
-      frame.replaceChildren(element("iframe", { src: address, title: `Report of ${run}` }));
+      const { address } = await Server.get("/api/report", names.map((run) => ["run", run]));
+      delete frame.dataset.loaded;
+      frame.replaceChildren(element("iframe", { src: address, title: `Report of ${names.join(" and ")}` }));
+      frame.dataset.names = names.join(" ");
       show("report");
     } catch (error) { notice(error.message); }
   }
@@ -47,6 +49,7 @@ const Studio = (() => {
     byId("case").value = file;
     sessionStorage.setItem("case", file);
     await design.open(file);
+    runs.propose();
   }
 
   async function look() {
@@ -57,6 +60,9 @@ const Studio = (() => {
       select.replaceChildren(...names.map((name) => element("option", { value: name }, name)));
       if (design.file) select.value = design.file;
     }
+    design.files(names);
+    const other = folder.cases.find((one) => one.file === design.against?.file);
+    if (other && other.version !== design.against.version) await design.compare(other.file);
     runs.folder(folder.runs);
   }
 
@@ -67,13 +73,26 @@ const Studio = (() => {
       await look();
       const now = folder.cases.find((one) => one.file === design.file);
       await design.busy;
-      if (now && design.data && now.version !== design.data.version) {
+      if (now && design.data?.file === now.file && now.version !== design.data.version) {
         const again = (await Server.get("/api/folder")).cases.find((one) => one.file === design.file);
-        if (again && again.version !== design.data.version) await design.reread();
+        if (again && again.file === design.data.file && again.version !== design.data.version) await design.reread();
       }
       if (design.file && !now) notice(`${design.file} is no longer in the folder.`);
     } catch (error) { notice(error.message); }
     setTimeout(watch, 1000);
+  }
+
+  /** A copy of the case, to compare its changes with. */
+  async function copy() {
+    const names = folder.cases.map((one) => one.file), stem = design.file.replace(/\.toml$/, "").slice(0, 50);
+    let file, number = 2;
+    do file = `${stem}-${number++}.toml`; while (names.includes(file));
+    try {
+      await design.busy;
+      await Server.post("/api/case/copy", { file, from: design.file });
+      await look();
+      notice(`${file} is a copy of ${design.file}. Compare the two with "Compare with".`);
+    } catch (error) { notice(error.message); }
   }
 
   function creation() {
@@ -108,26 +127,33 @@ const Studio = (() => {
     });
   }
 
+  const redraw = () => { for (const view of [design, runs, fitting]) view.redraw(); };
+
   function themes() {
     const order = ["auto", "light", "dark"], button = byId("theme");
     const set = (name) => {
       if (name === "auto") delete document.documentElement.dataset.theme; else document.documentElement.dataset.theme = name;
       button.textContent = `Theme: ${name}`;
       button.dataset.now = name;
-      design.shapes?.viewer.draw();
+      redraw();
     };
     button.addEventListener("click", () => set(order[(order.indexOf(button.dataset.now) + 1) % 3]));
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => design.shapes?.viewer.draw());
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
     set("auto");
   }
 
   async function start() {
     design = new Design(await Server.get("/api/schema"), notice, (text) => { byId("state").textContent = text; });
     runs = new Runs(design, report, notice);
+    fitting = new Fitting(notice);
     frame = element("div", { class: "view frame", id: "view-report" }, element("p", { class: "muted", style: "padding: 1rem" }, "Open a report from the list of runs."));
     tabs();
     themes();
     creation();
+    window.addEventListener("message", (event) => {
+      if (event.data === "report ready" && event.source === frame.querySelector("iframe")?.contentWindow) frame.dataset.loaded = frame.dataset.names;
+    });
+    byId("copy").addEventListener("click", () => copy());
     byId("undo").addEventListener("click", () => design.undo());
     byId("redo").addEventListener("click", () => design.redo());
     byId("case").addEventListener("change", (event) => choose(event.target.value).catch((error) => notice(error.message)));
