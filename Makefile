@@ -34,7 +34,7 @@ ARCH_CHECK := gtest benchmark python pybind11 python-numpy python-jsonschema
 
 export PATH := /usr/bin:$(PATH)
 
-.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-openings validate-flights judge torture test-sizes test-tutorials test-drawings test-slurm test-hosts test-debian12 test-debian13 scaling docs reference report-libraries format format-check install-build install wheel tarball test-portable container package clean
+.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-openings validate-filling validate-flights judge torture test-sizes test-tutorials test-drawings test-slurm test-hosts test-debian12 test-debian13 scaling docs reference report-libraries format format-check install-build install wheel tarball test-portable container package clean
 
 help:  ## This list
 	@grep -hE '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -159,6 +159,9 @@ validate-families-in-time: build  ## The same with unsteady wakes, averaged in t
 
 validate-openings: build  ## Coupled inflation of the same types, infinite mass, into docs/tables: half an hour; resumable
 	@/usr/bin/python3 validation/families/families.py --ripstop build/bin/ripstop --openings
+
+validate-filling: build  ## Openings of one canopy with one parameter changed at a time, into docs/tables: ten minutes; resumable
+	@/usr/bin/python3 validation/opening/filling.py --ripstop build/bin/ripstop
 
 validate-flights: build  ## Free flights of ten families, vents, cloths and grids compared with Knacke's values, into docs/tables: two hours; resumable
 	@/usr/bin/python3 validation/flight/campaign.py --ripstop build/bin/ripstop

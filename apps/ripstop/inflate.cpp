@@ -66,6 +66,7 @@ void print_start(const Opening& solver, const InflationState& state, const LoadS
              folded.inner_radius, folded.outer_radius);
   fmt::print("  largest strain {:.2e}{}\n", strain.largest,
              strain.part.empty() ? "" : " (" + strain.part + "); should be below 1e-3");
+  fmt::print("  edges that pierce cloth {:.2f} %\n", 100 * pierced_share(solver.mesh(), folded.positions));
   if (const auto& air = solver.problem().air)
     fmt::print("{}: {} x {} x {} cells\n", source.text, air->flow.grid.nx, air->flow.grid.ny,
                air->flow.grid.nz);

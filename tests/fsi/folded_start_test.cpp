@@ -18,6 +18,7 @@
 #include "ripstop/parachute/extended_skirt.h"
 #include "ripstop/parachute/flat_circular.h"
 #include "ripstop/parachute/polygon.h"
+#include "ripstop/parachute/profile.h"
 #include "ripstop/parachute/ringsail.h"
 #include "ripstop/parachute/ringslot.h"
 #include "ripstop/parachute/spherical.h"
@@ -63,6 +64,13 @@ std::vector<Family> families() {
   ring.outer_diameter_m = 1, ring.vent_diameter_m = 0.3;
   Polygon hexagon;
   hexagon.across_flats_m = 1, hexagon.vent_diameter_m = 0.1;
+  ProfileCanopy ellipse;  // axes 1 : 0.7, with a vent of a tenth of its diameter
+  ellipse.pieces.resize(1);
+  for (int i = 0; i <= 30; ++i) {
+    const double angle = i / 30.0 * std::acos(0.1);
+    ellipse.pieces[0].radius_m.push_back(0.5 * std::cos(angle));
+    ellipse.pieces[0].height_m.push_back(0.35 * std::sin(angle));
+  }
   Cross cross;
   cross.arm_length_m = 1.2, cross.arm_width_m = 0.4;
   return {{"flat circular", design_of(flat, 12, 12), 0.12},
@@ -73,6 +81,7 @@ std::vector<Family> families() {
           {"ringslot", design_of(slots, 12, 12), 0.12},
           {"ringsail", design_of(sails, 8, 8), 0.1},
           {"cross", design_of(cross, 4, 16), 0.15},
+          {"elliptical", design_of(ellipse, 10, 10), 0.12},
           {"annular", design_of(ring, 12, 12), 0.12},
           {"hexagon", design_of(hexagon, 6, 6), 0.2}};
 }

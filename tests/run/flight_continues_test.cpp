@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "ripstop/case/deployment.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/output/csv.h"
@@ -166,6 +167,30 @@ TEST_F(ContinuedFlight, IsOneRunThatResumesInBothPartsByteForByte) {
   EXPECT_EQ(shown.plots.front().series.size(), 2u) << "load of the inflation and of the flight";
 }
 
+// Extraction, reefed stage, open canopy and flight are one case.
+TEST_F(ContinuedFlight, FliesFromTheBagThroughAReefedStage) {
+  Case given = small_deployment();
+  given.deployment = DeploymentKeys{};
+  given.inflation.reefing = {{1.2, 0.01, {}}};
+  const Settings resolved = flight_settings(checked(given));
+  const LoadSource source = load_source(resolved);
+  InflationObserver quiet;
+  const InflationSolution inflation =
+      run_inflation(resolved, source, opening_problem(resolved, source, 1), quiet);
+  const Deployment deployment = deployment_of(resolved).value();
+  const std::vector<AirRow>& air = inflation.history.air;
+  EXPECT_NEAR(air.front().speed, deployment.phase(canopy_leaves)->payload_speed, 0.01);
+  ASSERT_EQ(inflation.result.stages->size(), 2u);
+  EXPECT_NEAR(inflation.result.stages->front().end, 0.01, 0.0021)
+      << "a line is cut at the next check of the step";
+  EXPECT_GT(inflation.result.stages->front().line_peak.value(), 0);
+  EXPECT_LT(air.back().speed, air.front().speed) << "drag exceeds the weight";
+
+  const FlightSolution flight = run_flight(resolved, 1, nobody);
+  EXPECT_EQ(flight.result.ended_by, "duration");
+  EXPECT_NEAR(norm(flight.history.rows.front().velocity), air.back().speed, 0.05 * air.back().speed);
+}
+
 TEST_F(ContinuedFlight, RefusesRunsFromWhichNothingFliesOn) {
   Case given = small_deployment();
   const auto refused = [&](const std::function<void()>& call, const char* names) {
@@ -194,6 +219,9 @@ TEST_F(ContinuedFlight, RefusesRunsFromWhichNothingFliesOn) {
   held.flow.cells = {28, 28, 36};
   inflate("held", resolve(opening_case(checked(held))));
   refused([&] { flown(given, "held"); }, "without a payload");
+  Case reefed = given;
+  reefed.inflation.reefing = {{1.2, 0.004, {}}};
+  refused([&] { flight_settings(checked(reefed)); }, "inflation.reefing[0].cut_s = 0.004");
   given.flow.speed_m_s.reset();
   refused([&] { flight_settings(checked(given)); }, "flow.speed_m_s");
 }

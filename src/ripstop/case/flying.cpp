@@ -69,6 +69,14 @@ void check_flight_keys(const Case& given) {
     refuse(
         "flight.wind.exponent: a profile over height needs the height of the payload at the start "
         "(flight.height_m or --height)");
+  const std::vector<ReefingStage>& reefing = given.inflation.reefing;
+  if (s.start == FlightSettings::Start::inflation && !reefing.empty() &&
+      reefing.back().cut_s >= given.inflation.duration_s)
+    refuse(
+        fmt::format("inflation.reefing[{}].cut_s = {:g}: must be below inflation.duration_s = {:g} s, "
+                    "because a flight continues from an open canopy; cut the line earlier, or prolong the "
+                    "inflation",
+                    reefing.size() - 1, reefing.back().cut_s, given.inflation.duration_s));
 }
 
 /// Cells across the nominal diameter with which the folded canopy is as wide as an opening requires.

@@ -1,0 +1,144 @@
+#!/usr/bin/env python3
+"""Filling of one canopy: what changes distance and load of its opening.
+
+    make validate-filling             (or: filling.py --ripstop build/bin/ripstop --runs runs/filling)
+
+Coupled openings of the flat circular canopy of 1.76 m (validation/flight/flat-circular.toml) with 2.4 kg at 20 m/s, on
+coarse cells. One parameter is changed at a time. Writes docs/tables/filling.md and filling.svg. A finished run is not
+computed again, and an interrupted one continues. `--rows base,mass-10` computes these rows only.
+"""
+import argparse
+import csv
+import json
+import math
+import pathlib
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.path.insert(0, str(ROOT / "validation"))
+import tables  # pylint: disable=wrong-import-position
+
+CASE = "validation/flight/flat-circular.toml"
+DIAMETER, DENSITY = 1.76, 1.2  # [m], [kg/m3]: of the case
+COARSE = {"flow.cells": "[48,48,60]", "parachute.mesh.cloth_nodes": "1200", "inflation.cloth_damping_s": "1e-5",
+          "inflation.low_pass_hz": "100", "inflation.frames": "100", "inflation.initial_radius_m": "0.16",
+          "flow.speed_m_s": "20", "payload.mass_kg": "2.4", "inflation.mass": "payload"}
+TRAVEL = 6.0  # of the payload at the speed of deployment, until a run ends [m]
+HELD = {"inflation.mass": "infinite"}
+# name: (subject, changed keys)
+ROWS = {
+    "base": ("as stated", {}),
+    "radius-0.13": ("radius of the folded skirt 0.13 m", {"inflation.initial_radius_m": "0.13"}),
+    "radius-0.25": ("radius of the folded skirt 0.25 m", {"inflation.initial_radius_m": "0.25"}),
+    "folds-24": ("24 folds", {"inflation.folds": "24"}),
+    "cloth-3": ("cloth of 3 CFM", {"parachute.canopy_material": "pia-c-44378-type-iv"}),
+    "mass-0.5": ("0.5 kg", {"payload.mass_kg": "0.5"}),
+    "mass-10": ("10 kg", {"payload.mass_kg": "10"}),
+    "held": ("held in the stream", HELD),
+    "speed-15": ("15 m/s", {"flow.speed_m_s": "15"}),
+    "speed-40": ("40 m/s", {"flow.speed_m_s": "40"}),
+    "cells-64": ("64 x 64 x 80 cells", {"flow.cells": "[64,64,80]"}),
+}
+
+
+def run(options, name):
+    """The command of one row, and its result; None where it failed."""
+    keys = {**COARSE, **ROWS[name][1]}
+    keys["inflation.duration_s"] = f"{TRAVEL / float(keys['flow.speed_m_s']):g}"
+    folder = options.runs.resolve() / name
+    command = [str(options.ripstop.resolve()), "inflate", CASE, "--air", "coupled", "--out", str(folder),
+               "--threads", str(options.threads)]
+    for key, value in keys.items():
+        command += ["--set", f"{key}={value}"]
+    print("$ ripstop " + " ".join(command[1:]), flush=True)
+    if subprocess.run(command, cwd=ROOT, check=False, stdout=subprocess.DEVNULL).returncode not in (0, 4):
+        print(f"{name}: ripstop failed; the same command continues", file=sys.stderr)
+        return None
+    return json.loads((folder / "result.json").read_text())
+
+
+def columns(folder, name):
+    with open(folder / name, encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    return {key: [float(row[key]) for row in rows] for key in rows[0]}
+
+
+def travelled(folder, speed, time):
+    """Distance of the payload through the air until `time` [m]."""
+    air = columns(folder, "air.csv")
+    if not any(air["path_m"]):
+        return speed * time
+    return next((path for t, path in zip(air["time_s"], air["path_m"]) if t >= time), air["path_m"][-1])
+
+
+def measures(options, name, r):
+    folder = options.runs.resolve() / name
+    speed = float({**COARSE, **ROWS[name][1]}["flow.speed_m_s"])
+    peak, time = r["low_pass_peak_load_n"], r["low_pass_peak_time_s"]
+    balance = columns(folder, "balance.csv")
+    widest = max(balance["projected_area_m2"])
+    half = next(t for t, a in zip(balance["time_s"], balance["projected_area_m2"]) if a >= 0.5 * widest)
+    pressure = DENSITY / 2 * speed ** 2 * math.pi / 4 * DIAMETER ** 2
+    return {"peak": peak, "way": travelled(folder, speed, time) / DIAMETER,
+            "half": travelled(folder, speed, half) / DIAMETER, "filled": r.get("filling_distance_diameters"),
+            "on_area": peak / pressure, "energy": 100 * r["energy_residual"]}
+
+
+def row_of(name, m, held):
+    factor = f"{m['on_area'] / held['on_area']:.2f}" if held and name != "held" else ""
+    filled = f"{m['filled']:.2f}" if m["filled"] else "not settled"
+    return [ROWS[name][0], f"{m['peak']:.0f}", f"{m['way']:.2f}", f"{m['half']:.2f}", filled, f"{m['on_area']:.2f}", factor,
+            f"{m['energy']:.2f}"]
+
+
+def plot(options, done):
+    """Projected area over the distance, as a small SVG."""
+    width, height, left, low = 640, 360, 50, 320
+    parts = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" font-family="sans-serif" '
+             'font-size="11">', f'<rect width="{width}" height="{height}" fill="white"/>']
+    for k in range(5):
+        parts.append(f'<text x="{left + 100 * k}" y="{low + 16}" text-anchor="middle">{k}</text>')
+        parts.append(f'<text x="{left - 6}" y="{low - 75 * k + 4}" text-anchor="end">{0.5 * k:g}</text>')
+    parts.append(f'<text x="{left + 200}" y="{low + 34}" text-anchor="middle">distance / nominal diameter</text>')
+    parts.append(f'<text x="{left}" y="14">projected area, m2</text>')
+    parts.append(f'<path d="M{left} {low - 300}V{low}H{left + 400}" fill="none" stroke="black"/>')
+    for i, name in enumerate(done):
+        folder = options.runs.resolve() / name
+        speed = float({**COARSE, **ROWS[name][1]}["flow.speed_m_s"])
+        balance, colour = columns(folder, "balance.csv"), f"hsl({i * 360 // len(done)},70%,40%)"
+        points = [(travelled(folder, speed, t) / DIAMETER, a)
+                  for t, a in zip(balance["time_s"], balance["projected_area_m2"])]
+        line = " ".join(f"{left + 100 * x:.1f},{low - 150 * a:.1f}" for x, a in points if x <= 4)
+        parts.append(f'<polyline points="{line}" fill="none" stroke="{colour}"/>')
+        parts.append(f'<text x="{left + 410}" y="{30 + 16 * i}" fill="{colour}">{ROWS[name][0]}</text>')
+    (ROOT / "docs/tables/filling.svg").write_text("\n".join([*parts, "</svg>"]) + "\n")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--ripstop", type=pathlib.Path, default=ROOT / "build/bin/ripstop")
+    parser.add_argument("--runs", type=pathlib.Path, default=ROOT / "runs/filling")
+    parser.add_argument("--threads", type=int, default=2)
+    parser.add_argument("--rows", default=",".join(ROWS), help="names of rows, comma-separated")
+    options = parser.parse_args()
+    done = {}
+    for name in options.rows.split(","):
+        result = run(options, name)
+        if result:
+            done[name] = measures(options, name, result)
+    rows = [row_of(name, m, done.get("held")) for name, m in done.items()]
+    table = tables.table(["changed", "peak at 100 Hz N", "distance to the peak / D0", "to half of the largest area / D0",
+                          "filled / D0", "peak over q S0", "X_1", "energy residual %"], rows)
+    print("\n".join(table))
+    if set(done) != set(ROWS):
+        return
+    made = [folder for name in done for folder in tables.runs_below(options.runs.resolve() / name)]
+    foot = ["X_1: peak over q S0, divided by that of the canopy held in the stream at 20 m/s.", "",
+            "![Projected area over the distance](filling.svg)"]
+    tables.write("filling", "Filling of a flat circular canopy", "make validate-filling", made, table + foot)
+    plot(options, done)
+
+
+if __name__ == "__main__":
+    main()
