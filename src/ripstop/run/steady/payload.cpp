@@ -46,7 +46,7 @@ double own_drag(const Settings& resolved, double speed) {
 // D goes with v^2 as long as the shape stays: the next speed is v (W / D)^(1/2). The coupling iterates the shape at
 // the same time, so the search costs about as many iterations as one run.
 SteadySolution run_with_payload(const Settings& resolved, SteadyObserver& observer,
-                                const SteadySettings& settings) {
+                                const SteadySettings& settings, RunClock clock) {
   const double weight = suspended_weight(resolved, *resolved.payload().mass_kg);
   const int most = resolved.coupling().max_iterations;
   Settings now = resolved;
@@ -55,6 +55,7 @@ SteadySolution run_with_payload(const Settings& resolved, SteadyObserver& observ
   SteadyState& state = solution.state;
   state = parts.solver->start();
   observer.begin({now, *parts.solver, parts.engine->name()}, state);
+  clock.count_earlier(state);
   if (state.speed == 0) state.speed = now.flow().speed_m_s, state.speeds = 1;
   const auto drag_over_weight = [&] {
     return (state.iterations.back().fluid_force + own_drag(resolved, state.speed)) / weight;
@@ -88,6 +89,7 @@ SteadySolution run_with_payload(const Settings& resolved, SteadyObserver& observ
   solution.result = steady_result(*parts.solver, state, now);
   solution.result.payload = {*resolved.payload().mass_kg,     parachute_mass(resolved), weight,
                              own_drag(resolved, state.speed), drag_over_weight(),       state.speeds};
+  solution.result.wall_time = clock.elapsed();
   observer.ended({now, *parts.solver, parts.engine->name()}, state, solution.result);
   return solution;
 }
