@@ -66,6 +66,9 @@ std::string why_full_box(const Settings& resolved, const SteadyProblem& problem)
   if (!engine_of(flow.engine).can.quarters)
     return fmt::format("the flow engine \"{}\" has no planes of symmetry", flow.engine);
   if (flow.unsteady) return "the flow is unsteady";
+  // Rounding decides whether cloth touches a cell, and the published values are those of the full box.
+  if (flow.porosity_model == PorosityModel::paper && flow.symmetry == FlowSymmetry::automatic)
+    return "the \"paper\" model is compared with the full domain of its source";
   if (std::string reason = why_not_mirrored(problem.flow); !reason.empty()) return reason;
   if (mirror_images(problem.mesh)) return {};
   if (const int gores = resolved.parachute().gores; gores % 2 != 0)

@@ -36,6 +36,7 @@ EngineRecord builtin() {
            .fitted_meshes = false,
            .other_air = true,
            .time = true,
+           .other_cells = true,
            .quarters = true,
            .boundaries = words_of(boundaries())},
           [](const EngineOptions&) { return make_cartesian()->name(); },

@@ -37,6 +37,7 @@ struct SteadyProgress {
   RelaxProgress cloth = {};
   FlowProgress flow = {};
   WatchProgress time = {};
+  bool coarse = false;  // of a start on coarser cells
 };
 using SteadyReport = std::function<void(const SteadyProgress&)>;
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "ripstop/run/engine.h"
+#include "ripstop/run/steady/coarse_start.h"
 #include "ripstop/run/steady/steady_parts.h"
 
 namespace ripstop {
@@ -56,6 +57,8 @@ SteadySolution run_with_payload(const Settings& resolved, SteadyObserver& observ
   state = parts.solver->start();
   observer.begin({now, *parts.solver, parts.engine->name()}, state);
   clock.count_earlier(state);
+  const auto start = coarse_start(resolved, *parts.solver, state, observer, settings);
+  if (start) start->give(state);
   if (state.speed == 0) state.speed = now.flow().speed_m_s, state.speeds = 1;
   const auto drag_over_weight = [&] {
     return (state.iterations.back().fluid_force + own_drag(resolved, state.speed)) / weight;
@@ -64,7 +67,8 @@ SteadySolution run_with_payload(const Settings& resolved, SteadyObserver& observ
     now = at_speed(now, state.speed);
     parts = parts_at(std::move(parts), now, settings);
   };
-  if (state.speed != now.flow().speed_m_s) take_speed();  // of a run that was killed
+  if (state.speed != now.flow().speed_m_s) take_speed();  // of a coarse start, or of a run that was killed
+  if (start) parts.solver->flow().continue_from(start->flow.path);
   for (;;) {
     if (!state.iterations.empty()) {
       const double share = drag_over_weight();

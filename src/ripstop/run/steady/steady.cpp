@@ -15,6 +15,7 @@
 #include "ripstop/run/engine.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/quality.h"
+#include "ripstop/run/steady/coarse_start.h"
 #include "ripstop/run/steady/steady_parts.h"
 #include "ripstop/run/steady/warnings.h"
 
@@ -139,6 +140,10 @@ SteadySolution run_steady(const Settings& resolved, SteadyObserver& observer,
   state = solver.start();
   observer.begin(run, state);
   clock.count_earlier(state);
+  if (const auto start = coarse_start(resolved, solver, state, observer, settings)) {
+    start->give(state);
+    solver.flow().continue_from(start->flow.path);
+  }
   while (!solver.finished(state)) {
     solution.flow =
         solver.iterate(state, [&](const SteadyProgress& progress) { observer.progress(progress, state); });

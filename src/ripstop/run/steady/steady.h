@@ -167,6 +167,8 @@ class SteadyObserver {
   /// Before the first iteration. An observer with an earlier state puts it in place of the cold start, and
   /// restores the flow that belongs to it.
   virtual void begin(const SteadyRun&, SteadyState&) {}
+  /// The run starts from this result on coarser cells.
+  virtual void solved_coarse(const SteadyRun&, const SteadyResult&) {}
   /// Failures that did not stop the run.
   virtual void warned(const std::string&) {}
   virtual void progress(const SteadyProgress&, const SteadyState&) {}
