@@ -101,7 +101,7 @@ void print_result(const SteadyResult& r, const Settings& resolved, const fs::pat
   row("force balance",
       fmt::format("air load {:.2f}, cloth load {:.2f}, line load {:.2f}, momentum deficit {:.2f} N",
                   r.last.fluid_force, r.last.nodal_load, r.last.line_tension, r.last.momentum_deficit));
-  if (r.domain)
+  if (r.domain && resolved.flow().symmetry != FlowSymmetry::full)
     row("flow domain", r.domain->part == "full"
                            ? fmt::format("full, because {}", r.domain->because)
                            : "a quarter, mirrored in the planes x = 0 and y = 0 (flow.symmetry)");

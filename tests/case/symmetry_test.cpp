@@ -19,6 +19,7 @@ Settings mirrored_canopy(std::vector<Setting> set) {
 }
 
 std::string full_because(std::vector<Setting> set) {
+  set.insert(set.begin(), {"flow.symmetry", "auto"});
   const SteadyProblem problem = steady_problem(mirrored_canopy(std::move(set)));
   EXPECT_EQ(problem.flow.quarter, problem.full_box_because.empty());
   return problem.full_box_because;
@@ -29,8 +30,9 @@ const Setting nine_gores{"parachute.gores", "9"}, nine_lines{"parachute.lines.co
 
 TEST(Symmetry, AutoSolvesAQuarterWhereCanopyCellsAndStreamAreMirrored) {
   EXPECT_EQ(full_because({}), "");
+  EXPECT_FALSE(steady_problem(mirrored_canopy({})).flow.quarter);
   EXPECT_EQ(full_because({{"flow.symmetry", "quarter"}}), "");
-  EXPECT_EQ(full_because({{"flow.symmetry", "full"}}), "it was requested");
+  EXPECT_EQ(full_because({{"flow.symmetry", "full"}}), "flow.symmetry is \"full\"");
   EXPECT_EQ(full_because({nine_gores, nine_lines, no_vent_lines}), "the number of gores is odd (9)");
   EXPECT_EQ(full_because({{"flow.cells", "[81, 80, 98]"}}),
             "the number of cells across the stream is odd (81)");

@@ -62,7 +62,7 @@ namespace {
 /// Why a steady run solves the whole box, as a clause; empty: a quarter is enough.
 std::string why_full_box(const Settings& resolved, const SteadyProblem& problem) {
   const FlowSettings& flow = resolved.flow();
-  if (flow.symmetry == FlowSymmetry::full) return "it was requested";
+  if (flow.symmetry == FlowSymmetry::full) return "flow.symmetry is \"full\"";
   if (!engine_of(flow.engine).can.quarters)
     return fmt::format("the flow engine \"{}\" has no planes of symmetry", flow.engine);
   if (flow.unsteady) return "the flow is unsteady";

@@ -85,10 +85,11 @@ void expect_alike(const FlowField& quarter, const FlowField& full, double speed)
   EXPECT_LT(velocity, 1e-4 * speed);
 }
 
+// With second-order convection the flow about a sheet keeps a small cycle of iterations, so it is upwind here.
 TEST(Quarter, HasTheFlowOfTheWholeBoxAboutASheet) {
   for (const Sides sides : {Sides::entraining, Sides::slip, Sides::far_field}) {
     const FlowProblem problem = with_cup(sides);
-    const FlowField quarter = solved(problem, true, true), full = solved(problem, false, true);
+    const FlowField quarter = solved(problem, true, false), full = solved(problem, false, false);
     expect_alike(quarter, full, 10);
     ASSERT_EQ(quarter.sheet_loads.size(), full.sheet_loads.size()) << sides.word;
     // Face by face, in any order.
@@ -110,7 +111,7 @@ TEST(Quarter, HasTheFlowOfTheWholeBoxAboutASheet) {
 TEST(Quarter, HasTheFlowOfTheWholeBoxThroughPorousCells) {
   for (const Sides sides : {Sides::zero_gradient, Sides::entraining}) {
     const FlowProblem problem = with_porous_cells(sides);
-    expect_alike(solved(problem, true, false), solved(problem, false, false), 10);
+    expect_alike(solved(problem, true, true), solved(problem, false, true), 10);
   }
 }
 
