@@ -94,6 +94,10 @@ void print_result(const SteadyResult& r, const Settings& resolved, const fs::pat
   row("force balance",
       fmt::format("air load {:.2f}, cloth load {:.2f}, line load {:.2f}, momentum deficit {:.2f} N",
                   r.last.fluid_force, r.last.nodal_load, r.last.line_tension, r.last.momentum_deficit));
+  if (r.domain && resolved.flow().symmetry != FlowSymmetry::full)
+    row("flow domain", r.domain->part == "full"
+                           ? fmt::format("full, because {}", r.domain->because)
+                           : "a quarter, mirrored in the planes x = 0 and y = 0 (flow.symmetry)");
   if (r.unsteady) {
     print_unsteady(*r.unsteady);
   } else if (r.last.flow_averaged > 0)

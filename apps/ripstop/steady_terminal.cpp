@@ -22,6 +22,7 @@ double iterations_left(const SteadyState& state, const CouplingSettings& setting
 }
 
 std::string progress_text(const SteadyProgress& p, double elapsed, double left) {
+  const std::string iteration = fmt::format("{}{}", p.coarse ? "coarse " : "", p.iteration);
   const std::string time =
       left > 0 ? fmt::format("elapsed {}, remaining about {}{}", duration_text(elapsed), duration_text(left),
                              p.stage == SteadyStage::time ? " of this averaging window" : "")
@@ -32,15 +33,15 @@ std::string progress_text(const SteadyProgress& p, double elapsed, double left) 
         p.time.mean != 0 ? fmt::format("mean {:.1f} +- {:.2g} N, {:.0f} % of the averaging window",
                                        p.time.mean, p.time.standard_error, std::min(99.0, 100 * p.time.share))
                          : std::string("start-up");
-    return fmt::format("[{}] time: {:.3f} s, step {} of {:.2g} s, drag {:.1f} N, {} | {}", p.iteration,
+    return fmt::format("[{}] time: {:.3f} s, step {} of {:.2g} s, drag {:.1f} N, {} | {}", iteration,
                        step.time, step.step, step.length, step.force.z, mean, time);
   }
   if (p.stage == SteadyStage::cloth) {
-    return fmt::format("[{}] cloth: step {}, residual {:.1e} | {}", p.iteration, p.cloth.steps,
+    return fmt::format("[{}] cloth: step {}, residual {:.1e} | {}", iteration, p.cloth.steps,
                        p.cloth.residual, time);
   }
   return fmt::format("[{}] flow: iteration {}, residuals U {:.1e} p {:.1e} k {:.1e}, drag {:.1f} N | {}",
-                     p.iteration, p.flow.iteration, p.flow.residual_u, p.flow.residual_p, p.flow.residual_k,
+                     iteration, p.flow.iteration, p.flow.residual_u, p.flow.residual_p, p.flow.residual_k,
                      p.flow.drag, time);
 }
 
@@ -85,6 +86,14 @@ void SteadyTerminal::begin(const SteadyRun& run, SteadyState& state) {
   for (const SteadyIteration& i : state.iterations) progress_.line(iteration_text(i));
 }
 
+void SteadyTerminal::solved_coarse(const SteadyRun& run, const SteadyResult& result) {
+  const FlowGrid grid = flow_grid(run.resolved.flow());
+  progress_.line(fmt::format(
+      "start on {} x {} x {} cells: {} iterations, drag {:.1f} N at {:.4g} m/s, projected diameter {:.3f} m",
+      grid.nx, grid.ny, grid.nz, result.iterations, result.drag, result.speed,
+      result.size.projected_diameter));
+}
+
 void SteadyTerminal::warned(const std::string& text) {
   progress_.line("ripstop: " + text);
 }
@@ -94,7 +103,7 @@ void SteadyTerminal::progress(const SteadyProgress& p, const SteadyState& state)
   const double gone = elapsed() - before_, share = std::min(0.99, p.time.share);
   if (p.stage == SteadyStage::time) {
     if (share > 0) left = gone * (1 / share - 1);
-  } else if (!state.iterations.empty()) {
+  } else if (!state.iterations.empty() && !p.coarse) {
     left = iterations_left(state, settings_) * state.iterations.back().wall_time - gone;
   }
   progress_.show(progress_text(p, elapsed(), left));

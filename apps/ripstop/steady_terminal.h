@@ -14,6 +14,7 @@ class SteadyTerminal : public SteadyObserver {
   explicit SteadyTerminal(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   void begin(const SteadyRun& run, SteadyState& state) override;
+  void solved_coarse(const SteadyRun& run, const SteadyResult& result) override;
   void warned(const std::string& text) override;
   void progress(const SteadyProgress& p, const SteadyState& state) override;
   void iterated(const SteadyRun& run, const SteadyState& state, const FlowField& field) override;

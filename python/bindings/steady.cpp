@@ -170,6 +170,8 @@ void add_steady(py::module_& module) {
   add_class<WindowAverage>(module, "Watched", "State of the averaging window of an unsteady run.");
   add_class<UnsteadyResult>(module, "UnsteadyResult", "Averages of an unsteady wake and their uncertainty.");
   add_class<HeldPayload>(module, "HeldPayload", "Equilibrium of drag and weight in a run with a payload.");
+  add_class<SolvedDomain>(module, "SolvedDomain",
+                          "The part of the flow domain in which the flow was solved.");
   add_class<Margin>(module, "Margin",
                     "Margin of safety of one part; `unit` is the unit of load and strength.");
   add_class<Margins>(module, "Margins", "Margins of safety of all parts.");

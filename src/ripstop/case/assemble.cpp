@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include "ripstop/canopy/mirror.h"
 #include "ripstop/case/cost.h"
 #include "ripstop/core/error.h"
+#include "ripstop/flow/engines.h"
 #include "ripstop/flow/projections.h"
+#include "ripstop/flow/symmetry.h"
 
 namespace ripstop {
 
@@ -54,15 +57,43 @@ void require_axial_stream(const FlowSettings& flow, const char* what) {
                           flow.angle_of_attack_deg, what));
 }
 
+namespace {
+
+/// Why a steady run solves the whole box, as a clause; empty: a quarter is enough.
+std::string why_full_box(const Settings& resolved, const SteadyProblem& problem) {
+  const FlowSettings& flow = resolved.flow();
+  if (flow.symmetry == FlowSymmetry::full) return "flow.symmetry is \"full\"";
+  if (!engine_of(flow.engine).can.quarters)
+    return fmt::format("the flow engine \"{}\" has no planes of symmetry", flow.engine);
+  if (flow.unsteady) return "the flow is unsteady";
+  // Rounding decides whether cloth touches a cell, and the published values are those of the full box.
+  if (flow.porosity_model == PorosityModel::paper && flow.symmetry == FlowSymmetry::automatic)
+    return "the \"paper\" model is compared with the full domain of its source";
+  if (std::string reason = why_not_mirrored(problem.flow); !reason.empty()) return reason;
+  if (mirror_images(problem.mesh)) return {};
+  if (const int gores = resolved.parachute().gores; gores % 2 != 0)
+    return fmt::format("the number of gores is odd ({})", gores);
+  return "the canopy is not its own mirror image in the planes x = 0 and y = 0";
+}
+
+}  // namespace
+
 SteadyProblem steady_problem(const Settings& resolved) {
   require_axial_stream(resolved.flow(), "a steady run");
   SteadyProblem problem{parachute_mesh(resolved), flow_problem(resolved), nominal_area(resolved.parachute()),
-                        resolved.coupling(), std::nullopt};
+                        resolved.coupling(),      std::nullopt,           {}};
   if (const FlowSettings& flow = resolved.flow(); flow.unsteady) {
     const WatchKeys& keys = flow.watch;
     problem.averaging_window = {keys.courant, keys.standard_error, keys.shortest, keys.longest,
                                 inflated_diameter(resolved.parachute())};
   }
+  problem.full_box_because = why_full_box(resolved, problem);
+  problem.flow.quarter = problem.full_box_because.empty();
+  if (resolved.flow().symmetry == FlowSymmetry::quarter && !problem.flow.quarter)
+    throw Error(ExitCode::usage,
+                fmt::format("flow.symmetry = \"quarter\": not possible, because {}; set it to \"auto\" or "
+                            "\"full\"",
+                            problem.full_box_because));
   return problem;
 }
 

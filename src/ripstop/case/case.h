@@ -28,6 +28,8 @@ enum class SpeedBasis { nominal, measured };
 enum class Convection { upwind, second_order };
 /// Cells whose faces represent the cloth, or that are fitted to it.
 enum class FlowMesh { grid, fitted };
+/// Part of the box in which a steady flow is solved.
+enum class FlowSymmetry { automatic, full, quarter };
 
 /// [flow.watch]: how long an unsteady flow is watched. Lengths are in times
 /// that the stream takes for one inflated diameter.
@@ -47,6 +49,7 @@ struct FlowOptions {
   double turbulence_intensity = 0.005;
   double viscosity_ratio = 10;
   double angle_of_attack_deg = 0, azimuth_deg = 0;  // of the stream, see wind_direction()
+  FlowSymmetry symmetry = FlowSymmetry::full;
   FlowMesh mesh = FlowMesh::grid;
   int cloth_levels = 0;  // fitted: times that the cells at the cloth are halved
   int ranks = 1;

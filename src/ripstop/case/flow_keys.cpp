@@ -251,6 +251,15 @@ void describe(Fields& fields, FlowKeys& flow) {
   describe_space(fields, flow);
   fields.table("tunnel", flow.tunnel, "Wind tunnel around the canopy (docs/guide/tunnel.md).");
   describe_numerics(fields, flow);
+  fields.choice(
+      "symmetry", flow.symmetry,
+      {{"auto", FlowSymmetry::automatic}, {"full", FlowSymmetry::full}, {"quarter", FlowSymmetry::quarter}},
+      "Part of the domain that a steady run solves. \"full\": the whole domain; \"quarter\": a "
+      "quarter with planes of symmetry at x = 0 and y = 0, whose flow is mirrored (built-in engine "
+      "only); \"auto\": a quarter if the cloth is a sheet and canopy, cells and stream are symmetric, else "
+      "the "
+      "whole domain. "
+      "Unsteady runs, openings and flights use the whole domain.");
   fields.choice("mesh", flow.mesh, {{"grid", FlowMesh::grid}, {"fitted", FlowMesh::fitted}},
                 "\"grid\": cloth is represented by faces of the cells of the domain; \"fitted\": cells are "
                 "fitted to the cloth (snappyHexMesh of OpenFOAM, for the \"sheet\" model).");
@@ -291,6 +300,9 @@ void describe(Fields& fields, CouplingKeys& coupling) {
       "Convergence acceleration of the coupling iterations.");
   fields.number("cloth_tolerance", coupling.cloth_tolerance, above(0).up_to(0.1),
                 "Ratio of residual to applied force below which the cloth is in equilibrium.");
+  fields.toggle("coarse_start", coupling.coarse_start,
+                "First solve the coupling on cells twice as wide, and start from that shape, load and flow "
+                "(built-in engine, \"sheet\" model, 16 or more cells across the canopy, no open jet).");
   fields.toggle("linear", coupling.linear,
                 "Linear material model: only the stiffness coefficient K_1 of every material.");
   fields.integer("threads", coupling.threads, from(0).up_to(1024),

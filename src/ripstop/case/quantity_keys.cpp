@@ -33,6 +33,7 @@ const std::vector<std::pair<std::string, std::string>>& quantity_keys() {
       {"kind of tunnel", "flow.tunnel.kind"},
       {"iterations of the mean", "flow.average_over"},
       {"unsteady flow", "flow.unsteady"},
+      {"symmetry of the flow", "flow.symmetry"},
       {"MPI ranks", "flow.ranks"},
       {"kind of mesh", "flow.mesh"},
       {"upwind convection", "flow.convection = \"upwind\""},

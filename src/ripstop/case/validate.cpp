@@ -281,6 +281,7 @@ void check_engine(const Case& given, const FlowSettings& flow, Findings& finding
   wanted.ranks = flow.ranks > 1;
   wanted.fitted_meshes = flow.mesh == FlowMesh::fitted;
   wanted.time = flow.unsteady;
+  wanted.quarters = flow.symmetry == FlowSymmetry::quarter;
   for (const Lack& lack : lacks(engine_of(flow.engine), wanted)) {
     if (lack.quantity == "porosity model")  // all that follows from it is lacking too
       return findings.add(

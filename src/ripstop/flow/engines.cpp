@@ -36,6 +36,8 @@ EngineRecord builtin() {
            .fitted_meshes = false,
            .other_air = true,
            .time = true,
+           .other_cells = true,
+           .quarters = true,
            .boundaries = words_of(boundaries())},
           [](const EngineOptions&) { return make_cartesian()->name(); },
           make};
@@ -104,6 +106,7 @@ std::vector<Lack> lacks(const EngineRecord& engine, const Abilities& wanted) {
              {&Abilities::jets, {"kind of tunnel", "open-jet", "free-air or closed"}},
              {&Abilities::averages, {"iterations of the mean", "more than 0", "0"}},
              {&Abilities::time, {"unsteady flow", "true", "false"}},
+             {&Abilities::quarters, {"symmetry of the flow", "quarter", "full"}},
              {&Abilities::ranks, {"MPI ranks", "more than 1", "1"}},
              {&Abilities::fitted_meshes, {"kind of mesh", "fitted", "grid"}}};
   std::vector<Lack> result;

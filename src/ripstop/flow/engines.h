@@ -35,6 +35,8 @@ struct Abilities {
   bool fitted_meshes = false;  // EngineOptions::fitted_mesh
   bool other_air = false;      // a saved flow may start one of another speed or density
   bool time = false;           // Flow::march()
+  bool other_cells = false;    // Flow::continue_from()
+  bool quarters = false;       // FlowProblem::quarter
   std::vector<std::string> boundaries = {"zero-gradient", "slip", "fixed-pressure"};  // words of boundaries.h
 
   bool has_boundary(std::string_view word) const;

@@ -144,6 +144,9 @@ struct FlowProblem {
   std::vector<FlowBody> bodies;
   std::vector<Vec3> body_force;  // on the air of each cell [N/m3]; empty: none
   Stopping stopping;
+  /// Bodies, cells and stream are their own mirror images in the planes x = 0 and y = 0, and the flow is steady: a
+  /// quarter of it is solved. Only where the engine's Abilities have it.
+  bool quarter = false;
 
   bool has_sheets() const;
 };

@@ -18,6 +18,7 @@ struct CouplingOptions {
   double relaxation = 1;  // of the pressure; 1: the flow's answer is taken whole
   Acceleration acceleration = Acceleration::anderson;
   double cloth_tolerance = 5e-4;  // RelaxOptions::tolerance
+  bool coarse_start = false;      // a cold run is first solved on cells twice as wide
   bool linear = false;            // keep only K_1 of every law
   int threads = 0;                // 0: as many as the machine has
 };

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "ripstop/cloth/cloth.h"
@@ -25,6 +26,7 @@ struct SteadyProblem {
   double reference_area = 0;  // S0 [m2]
   CouplingSettings settings;
   std::optional<Watch> averaging_window;  // once shape and drag have settled, the flow is averaged in time
+  std::string full_box_because = {};      // why FlowProblem::quarter is not set; empty where it is
 };
 
 enum class SteadyStage { cloth, flow, time };
@@ -35,6 +37,7 @@ struct SteadyProgress {
   RelaxProgress cloth = {};
   FlowProgress flow = {};
   WatchProgress time = {};
+  bool coarse = false;  // of a start on coarser cells
 };
 using SteadyReport = std::function<void(const SteadyProgress&)>;
 
@@ -56,6 +59,8 @@ class SteadySolver {
   const Flow& flow() const { return *flow_; }
   const Cloth& cloth() const { return *cloth_; }
   const CanopyMesh& mesh() const { return problem_.mesh; }
+  /// Why the whole box is solved, as a clause; empty: a quarter of it is.
+  const std::string& full_box_because() const { return problem_.full_box_because; }
   const std::vector<Cell>& cells() const { return cells_; }
   /// Of the last iteration, if its flow was averaged in time.
   const FlowRecord& record() const { return record_; }

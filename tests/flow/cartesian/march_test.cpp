@@ -197,7 +197,7 @@ class Vortices {
           s.f.fy[at] = -0.3 * density * std::cos(pi * x) * std::sin(pi * (y - h));
         }
       }
-      cartesian::side_ghosts(d, s.f.u, k, -1, 1), cartesian::side_ghosts(d, s.f.v, k, 1, -1);
+      cartesian::side_ghosts(d, s.f.u, k, 0, -1), cartesian::side_ghosts(d, s.f.v, k, 1, -1);
     }
   }
 
@@ -286,7 +286,7 @@ class CarriedVortices {
           if (k > 0) s.f.fz[at] = density * exact(centre - Vec3{0, 0, h}, 0).z;
         }
       }
-      cartesian::side_ghosts(d, s.f.u, k, -1, 1), cartesian::side_ghosts(d, s.f.w, k, 1, 1);
+      cartesian::side_ghosts(d, s.f.u, k, 0, -1), cartesian::side_ghosts(d, s.f.w, k);
     }
   }
 

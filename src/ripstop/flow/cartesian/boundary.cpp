@@ -202,18 +202,21 @@ std::unique_ptr<OutletBoundary> make_outlet(Outlet kind) {
   return make_part(kind.word, "outlet", &BoundaryRecord::outlet);
 }
 
-void side_ghosts(const Discretisation& d, Array<double>& q, int k, double across_x, double across_y) {
+void side_ghosts(const Discretisation& d, Array<double>& q, int k, int normal, double mirror) {
   const Layout& layout = d.layout;
+  const auto across = [&](int axis) { return axis == normal ? mirror : 1; };
+  const auto low_end = [&](int axis) { return d.quarter ? (axis == normal ? -1 : 1) : across(axis); };
+  const double low_x = low_end(0), high_x = across(0), low_y = low_end(1), high_y = across(1);
   const int nx = layout.nx, ny = layout.ny;
   for (int j = 0; j < ny; ++j) {
     double* row = &q[layout.at(0, j, k)];
-    row[-1] = across_x * row[0];
-    row[nx] = across_x * row[nx - 1];
+    row[-1] = low_x * row[0];
+    row[nx] = high_x * row[nx - 1];
   }
   const double *low = &q[layout.at(-1, 0, k)], *high = &q[layout.at(-1, ny - 1, k)];
   double *below = &q[layout.at(-1, -1, k)], *above = &q[layout.at(-1, ny, k)];
-  for (int i = 0; i < nx + 2; ++i) below[i] = across_y * low[i];
-  for (int i = 0; i < nx + 2; ++i) above[i] = across_y * high[i];
+  for (int i = 0; i < nx + 2; ++i) below[i] = low_y * low[i];
+  for (int i = 0; i < nx + 2; ++i) above[i] = high_y * high[i];
 }
 
 void velocity_ghosts(const Discretisation& d, const Boundaries& b, State& s, int k) {
@@ -222,10 +225,10 @@ void velocity_ghosts(const Discretisation& d, const Boundaries& b, State& s, int
   const auto ends = [&](const double* inlet, Array<double>& q) {
     b.open() ? copy_into_ends(d, k, q) : end_ghosts(d, b, f, k, inlet, 0, q);
   };
-  side_ghosts(d, f.u, k, mirror, 1), ends(nullptr, f.u);
+  side_ghosts(d, f.u, k, 0, mirror), ends(nullptr, f.u);
   side_ghosts(d, f.v, k, 1, mirror), ends(nullptr, f.v);
-  side_ghosts(d, f.w, k, 1, 1), ends(b.inlet.w.data(), f.w);
-  side_ghosts(d, f.rho, k, 1, 1), copy_into_ends(d, k, f.rho);
+  side_ghosts(d, f.w, k), ends(b.inlet.w.data(), f.w);
+  side_ghosts(d, f.rho, k), copy_into_ends(d, k, f.rho);
   const Vec3 stream = b.inlet.stream.velocity;
   b.sides->transported(d, f, k, 0, stream.x, f.u), b.sides->transported(d, f, k, 1, stream.y, f.v);
   b.sides->transported(d, f, k, 2, stream.z, f.w);
@@ -234,7 +237,7 @@ void velocity_ghosts(const Discretisation& d, const Boundaries& b, State& s, int
 void turbulence_ghosts(const Discretisation& d, const Boundaries& b, State& s, int k) {
   Fields& f = s.f;
   const auto ghosts = [&](const Array<double>& inlet, double stream, Array<double>& q) {
-    side_ghosts(d, q, k, 1, 1);
+    side_ghosts(d, q, k);
     b.open() ? copy_into_ends(d, k, q) : end_ghosts(d, b, f, k, inlet.data(), stream, q);
     b.sides->transported(d, f, k, no_axis, stream, q);
   };
@@ -245,7 +248,7 @@ void pressure_ghosts(const Discretisation& d, const Boundaries& b, State& s, int
   Fields& f = s.f;
   const Layout& layout = d.layout;
   const std::ptrdiff_t sz = layout.stride_z;
-  side_ghosts(d, f.p, k, 1, 1);
+  side_ghosts(d, f.p, k);
   b.sides->pressure(d, b.inlet.stream, s, k);
   for (int j = 0; j < layout.ny && !b.open(); ++j) {
     const std::ptrdiff_t at = layout.at(0, j, k);
@@ -262,12 +265,12 @@ void correction_ghosts(const Discretisation& d, const Boundaries& b, Array<float
   const Layout& layout = d.layout;
   const std::ptrdiff_t sy = layout.stride_y, sz = layout.stride_z;
   const int nx = layout.nx, ny = layout.ny;
-  const float across = b.sides->correction_mirror();
+  const float across = b.sides->correction_mirror(), low = d.quarter ? 1 : across;
   for (int j = 0; j < ny; ++j) {
     float* q = &e[layout.at(0, j, k)];
-    q[-1] = across * q[0];
+    q[-1] = low * q[0];
     q[nx] = across * q[nx - 1];
-    for (int i = 0; j == 0 && i < nx; ++i) q[i - sy] = across * q[i];
+    for (int i = 0; j == 0 && i < nx; ++i) q[i - sy] = low * q[i];
     for (int i = 0; j == ny - 1 && i < nx; ++i) q[i + sy] = across * q[i];
     for (int i = 0; k == 0 && i < nx; ++i) q[i - sz] = b.open() ? -q[i] : q[i];
     for (int i = 0; k == layout.nz - 1 && i < nx; ++i) q[i + sz] = -q[i];

@@ -98,19 +98,19 @@ Inlet make_inlet(const Discretisation& d, const std::optional<Jet>& jet);
 std::unique_ptr<SideBoundary> make_sides(Sides kind);
 std::unique_ptr<OutletBoundary> make_outlet(Outlet kind);
 
-/// visit(BoxFace) for the faces of plane k in the sides.
+/// visit(BoxFace) for the faces of plane k in the sides; planes of symmetry are none.
 template <class Visit>
 void each_side_face(const Discretisation& d, const Fields& f, int k, Visit&& visit) {
   const Layout& layout = d.layout;
   const std::ptrdiff_t sy = layout.stride_y;
   for (int j = 0; j < layout.ny; ++j) {
     const std::ptrdiff_t low = layout.at(0, j, k), high = layout.at(layout.nx - 1, j, k);
-    visit(BoxFace{0, true, low - 1, low, f.fx[low]});
+    if (!d.quarter) visit(BoxFace{0, true, low - 1, low, f.fx[low]});
     visit(BoxFace{0, false, high + 1, high, -f.fx[high + 1]});
   }
   for (int i = 0; i < layout.nx; ++i) {
     const std::ptrdiff_t low = layout.at(i, 0, k), high = layout.at(i, layout.ny - 1, k);
-    visit(BoxFace{1, true, low - sy, low, f.fy[low]});
+    if (!d.quarter) visit(BoxFace{1, true, low - sy, low, f.fy[low]});
     visit(BoxFace{1, false, high + sy, high, -f.fy[high + sy]});
   }
 }
@@ -133,8 +133,9 @@ void each_end_face(const Discretisation& d, const Fields& f, int k, Visit&& visi
 void velocity_ghosts(const Discretisation& d, const Boundaries& b, State& s, int k);
 void turbulence_ghosts(const Discretisation& d, const Boundaries& b, State& s, int k);
 void pressure_ghosts(const Discretisation& d, const Boundaries& b, State& s, int k);
-/// Of the momentum equation's H/A and of a coefficient, at the sides only.
-void side_ghosts(const Discretisation& d, Array<double>& q, int k, double across_x, double across_y);
+/// Of any quantity, at the sides only. `normal` is the axis of a velocity's component, which is multiplied by `mirror`
+/// across the sides of that axis, and changes its sign in a plane of symmetry; else `no_axis`.
+void side_ghosts(const Discretisation& d, Array<double>& q, int k, int normal = no_axis, double mirror = 1);
 /// The correction uses the ghosts of the pressure while velocities are corrected; the solver needs zeros
 /// there.
 void correction_ghosts(const Discretisation& d, const Boundaries& b, Array<float>& e, int k);

@@ -3,21 +3,25 @@
 namespace ripstop::cartesian {
 
 Discretisation::Discretisation(const FlowGrid& grid_, const Freestream& air_,
-                               const CartesianSettings& settings_, End side, bool open)
+                               const CartesianSettings& settings_, End side, bool open, bool quarter_)
     : grid(grid_),
       air(air_),
       settings(settings_),
+      quarter(quarter_),
       x(make_axis(grid.edges(0), End::zero_gradient, End::zero_gradient)),
       y(make_axis(grid.edges(1), End::zero_gradient, End::zero_gradient)),
       z(make_axis(grid.edges(2), open ? End::zero_gradient : End::fixed_value, End::zero_gradient)),
-      xp(make_axis(grid.edges(0), side, side)),
-      yp(make_axis(grid.edges(1), side, side)),
+      xp(make_axis(grid.edges(0), quarter ? End::zero_gradient : side, side)),
+      yp(make_axis(grid.edges(1), quarter ? End::zero_gradient : side, side)),
       zp(make_axis(grid.edges(2), open ? End::fixed_value : End::zero_gradient, End::fixed_value)),
       layout(grid.nx, grid.ny, grid.nz) {
   // Beyond a side with fixed pressure the pressure has a ghost, a whole cell away; the correction, which is zero in
   // the face in the multigrid, has its own conductances there.
   for (Axis* axis : {&xp, &yp}) axis->inverse_distance.front() *= 0.5, axis->inverse_distance.back() *= 0.5;
   if (open) zp.inverse_distance.front() *= 0.5;
+  // Across a plane of symmetry the mirrored cell is a neighbour like any other; no mass passes, whatever the pressure.
+  if (!quarter) return;
+  for (Axis* axis : {&x, &y}) axis->inverse_distance.front() = axis->inverse_width.front();
 }
 
 RowMetrics Discretisation::metrics(int j, int k, const Axis& along_x, const Axis& along_y,

@@ -11,9 +11,9 @@ constexpr double heat_capacity = 1007;  // c_p of air [J/(kg K)]
 
 struct Discretisation {
   /// `side` is the condition of the pressure at the sides; `open`: at all six faces, and none has given
-  /// velocities.
+  /// velocities; `quarter`: the low sides are planes of symmetry.
   Discretisation(const FlowGrid& grid, const Freestream& air, const CartesianSettings& settings, End side,
-                 bool open = false);
+                 bool open = false, bool quarter = false);
 
   /// Of row (j, k) for convected quantities, and for the pressure.
   RowMetrics metrics(int j, int k) const { return metrics(j, k, x, y, z); }
@@ -22,6 +22,7 @@ struct Discretisation {
   FlowGrid grid;
   Freestream air;
   CartesianSettings settings;
+  bool quarter;     // the planes x = 0 and y = 0 mirror the flow (quarter.h)
   Axis x, y, z;     // for transport: fixed at the inlet, if there is one
   Axis xp, yp, zp;  // for the pressure: fixed at the outlet, the sides as given; see the constructor
   Layout layout;

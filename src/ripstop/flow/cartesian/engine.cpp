@@ -12,7 +12,9 @@
 #include "ripstop/core/quantity_error.h"
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/cartesian/march_frame.h"
+#include "ripstop/flow/cartesian/quarter.h"
 #include "ripstop/flow/cartesian/solver.h"
+#include "ripstop/flow/symmetry.h"
 
 namespace ripstop {
 namespace {
@@ -54,6 +56,9 @@ void check(const FlowProblem& problem) {
   positive_value("viscosity ratio", a.viscosity_ratio);
   check_stream(a);
   check_bodies(problem);
+  if (const std::string reason = problem.quarter ? why_not_mirrored(problem) : ""; !reason.empty())
+    usage(fmt::format("flow: a quarter of the domain cannot be solved, because {}; solve the full domain",
+                      reason));
   if (problem.jet) {
     check(*problem.jet, g);
     if (!a.along_z())
@@ -90,7 +95,7 @@ constexpr const char* state_file = "cartesian.flow";
 
 struct Header {
   char magic[8] = {'r', 'i', 'p', 'f', 'l', 'o', 'w', 'A'};
-  int frame = 0;  // MarchFrame::number()
+  int frame = 0;  // MarchFrame::number(), or that of a quarter
   FlowGrid grid;  // in that frame, as all else
   Freestream air;
   std::string sides, outlet;  // words
@@ -166,7 +171,7 @@ class CartesianFlow final : public Flow {
   CartesianFlow(const FlowProblem& problem, const CartesianSettings& settings, ThreadTeam& team)
       : frame_(problem.air.velocity),
         given_grid_(problem.grid),
-        problem_(frame_.into(problem)),
+        problem_(frame_.into(problem.quarter ? quarter_of(problem) : problem)),
         settings_(settings),
         team_(team),
         solver_(problem_, problem_.grid, porous(), settings, team) {}
@@ -180,9 +185,13 @@ class CartesianFlow final : public Flow {
 
   FlowAdvance advance(int iterations, double residual, const FlowReport& report) override;
   FlowStep march(int steps, double courant, const StepReport& report) override;
-  double longest_step(double courant) override { return solver_.longest_step(in_range(courant)); }
+  double longest_step(double courant) override {
+    require_whole();
+    return solver_.longest_step(in_range(courant));
+  }
   FlowStep step(double length) override;
   void stream(Vec3 velocity, Vec3 acceleration) override {
+    require_whole();
     if (problem_.jet) throw Error(ExitCode::usage, "flow: the speed of a jet cannot change during a run");
     if (!solver_.open() && !(velocity.x == 0 && velocity.y == 0 && velocity.z >= 0))
       throw Error(
@@ -195,10 +204,12 @@ class CartesianFlow final : public Flow {
   FlowField field() const override {
     FlowField field = solver_.field();
     field.bodies = body_loads(field.sheet_loads);
+    if (problem_.quarter) return whole_of(std::move(field), given_grid_);
     return frame_.back(std::move(field), given_grid_);
   }
   void add_to(FieldMean& mean) const override {
-    frame_.same() ? solver_.add_to(mean, body_loads(solver_.sheet_loads())) : Flow::add_to(mean);
+    frame_.same() && !problem_.quarter ? solver_.add_to(mean, body_loads(solver_.sheet_loads()))
+                                       : Flow::add_to(mean);
   }
   std::vector<SheetLoad> sheet_loads() const override { return frame_.back(solver_.sheet_loads()); }
   bool untouched() const override { return solver_.state().untouched; }
@@ -219,6 +230,14 @@ class CartesianFlow final : public Flow {
 
  private:
   static constexpr int fewest_cells = 20000;  // that justify a coarser grid
+
+  static constexpr int quarter_frame = 4;  // which no MarchFrame::number() is
+  int frame_number() const { return problem_.quarter ? quarter_frame : frame_.number(); }
+  void require_whole() const {
+    if (problem_.quarter)
+      throw Error(ExitCode::usage,
+                  "flow: a quarter of the domain has no steps in time; solve the full domain");
+  }
 
   static double in_range(double courant) {
     if (courant > 0 && courant <= 1) return courant;
@@ -300,6 +319,7 @@ std::vector<BodyLoad> CartesianFlow::body_loads(const std::vector<SheetLoad>& sh
 }
 
 FlowStep CartesianFlow::step(double length) {
+  require_whole();
   FlowStep now = solver_.step(length);
   now.bodies = body_loads(solver_.sheet_loads());
   if (!std::isfinite(now.force.z) || !is_finite(now.momentum_gap)) throw diverged_by(now);
@@ -328,7 +348,7 @@ void CartesianFlow::guess_from_coarser(const FlowGrid& grid, const PorousRows& p
 void CartesianFlow::save(const std::filesystem::path& folder) const {
   Writer out;
   Header header;
-  header.frame = frame_.number();
+  header.frame = frame_number();
   header.grid = problem_.grid, header.air = problem_.air;
   header.sides = problem_.sides.word, header.outlet = problem_.outlet.word;
   if (problem_.jet) header.jets = 1, header.jet = *problem_.jet;
@@ -371,7 +391,7 @@ State state_of(Reader& in, FlowProblem& problem, Solver& solver) {
 void CartesianFlow::restore(const std::filesystem::path& folder) {
   Reader in(folder / state_file);
   const Header header = header_of(in);
-  if (header.frame != frame_.number() || !(header.grid == problem_.grid) ||
+  if (header.frame != frame_number() || !(header.grid == problem_.grid) ||
       header.sides != problem_.sides.word || header.outlet != problem_.outlet.word ||
       (header.jets == 1) != problem_.jet.has_value() || (problem_.jet && !(header.jet == *problem_.jet)))
     throw Error(ExitCode::usage, (folder / state_file).string() + ": was made in a different flow domain");
@@ -384,7 +404,7 @@ void CartesianFlow::restore(const std::filesystem::path& folder) {
 void CartesianFlow::continue_from(const std::filesystem::path& folder) {
   Reader in(folder / state_file);
   const Header header = header_of(in);
-  if (header.frame != frame_.number() || !(header.air == problem_.air))
+  if (header.frame != frame_number() || !(header.air == problem_.air))
     throw Error(ExitCode::usage, (folder / state_file).string() + ": was made in different air");
   FlowProblem before = problem_;
   before.grid = header.grid, before.sides = {header.sides}, before.outlet = {header.outlet};

@@ -64,11 +64,11 @@ class FarField final : public SideBoundary {
       return static_cast<float>(f.rho[cell] * rc[cell] * 2 / width * area);
     };
     const double area_x = d.y.width[j] * d.z.width[k];
-    top.cx[low] = conductance(low, d.x.width.front(), area_x);
+    if (!d.quarter) top.cx[low] = conductance(low, d.x.width.front(), area_x);
     top.cx[high + 1] = conductance(high, d.x.width.back(), area_x);
     for (int i = 0; i < layout.nx; ++i) {
       const double area_y = d.x.width[i] * d.z.width[k], area_z = d.x.width[i] * d.y.width[j];
-      if (j == 0) top.cy[low + i] = conductance(low + i, d.y.width.front(), area_y);
+      if (j == 0 && !d.quarter) top.cy[low + i] = conductance(low + i, d.y.width.front(), area_y);
       if (j == layout.ny - 1)
         top.cy[low + i + layout.stride_y] = conductance(low + i, d.y.width.back(), area_y);
       if (everywhere_ && k == 0) top.cz[low + i] = conductance(low + i, d.z.width.front(), area_z);

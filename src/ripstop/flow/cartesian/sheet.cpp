@@ -84,8 +84,9 @@ double passing(double asked, double yields, const PressureDrop& law) {
 
 }  // namespace
 
-SheetRows::SheetRows(const Axis& x, const Axis& y, const Axis& z, const std::vector<FlowBody>& bodies)
-    : nx_(x.n), ny_(y.n), nz_(z.n) {
+SheetRows::SheetRows(const Axis& x, const Axis& y, const Axis& z, const std::vector<FlowBody>& bodies,
+                     bool quarter)
+    : nx_(x.n), ny_(y.n), nz_(z.n), quarter_(quarter) {
   add_faces(x, y, z, bodies);
   if (faces_.empty()) return;
   double across = 0;
@@ -111,32 +112,49 @@ void SheetRows::add_faces(const Axis& x, const Axis& y, const Axis& z, const std
         throw Error(ExitCode::bad_data,
                     fmt::format("sheet: the motion of {} triangles for {}", count, sheet.surface.size()));
     }
-    for (const SheetFace& geometry : sheet_faces(x, y, z, sheet.surface)) {
-      Face face;
-      face.geometry = geometry;
-      face.body = s;
-      face.law = law;
-      const SheetFace& g = face.geometry;
-      if (!motion.velocity.empty()) {
-        face.geometry.normal = geometry.across;
-        face.moves = true, face.velocity = motion.velocity[g.triangle];
-        const Axis& axis = g.axis == 0 ? x : g.axis == 1 ? y : z;
-        const int c = g.axis == 0 ? g.i : g.axis == 1 ? g.j : g.k;
-        const double off = along(g.axis, g.point) - axis.edge[c];
-        face.beyond = off * axis.inverse_width[off > 0 ? c : c - 1];
-        if (c < 3 || c + 3 > axis.n) face.beyond = 0;
-        face.apart = 1 / axis.inverse_distance[c];
-      }
-      if (!motion.yields.empty()) face.yields = motion.yields[g.triangle];
-      if (!motion.pressure.empty()) face.known = (g.against ? -1 : 1) * motion.pressure[g.triangle];
-      face.area = (g.axis == 0 ? 1 : x.width[g.i]) * (g.axis == 1 ? 1 : y.width[g.j]) *
-                  (g.axis == 2 ? 1 : z.width[g.k]);
-      face.cover = g.cover;
-      face.spread = (face.moves ? face.cover : 1) * face.area / std::max(g.area, 1e-2 * face.area);
-      face.yields *= std::max(1.0, face.spread / widest_spread);
-      faces_.push_back(face);
+    if (!quarter_) {
+      for (const SheetFace& geometry : sheet_faces(x, y, z, sheet.surface))
+        faces_.push_back(face_of(geometry, s, sheet, {&x, &y, &z}));
+      continue;
+    }
+    std::vector<SheetFace> found = sheet_faces(whole_of(x), whole_of(y), z, sheet.surface);
+    const std::vector<std::array<int, images>> triangles = take_quarter(found, nx_, ny_);
+    for (std::size_t n = 0; n < found.size(); ++n) {
+      const SheetFace& g = found[n];
+      Face& face = faces_.emplace_back(face_of(g, s, sheet, {&x, &y, &z}));
+      face.triangle = triangles[n];
+      face.in_plane = (g.axis == 0 && g.i == 0) || (g.axis == 1 && g.j == 0);
     }
   }
+}
+
+SheetRows::Face SheetRows::face_of(const SheetFace& geometry, int body, const FlowBody& sheet,
+                                   const std::array<const Axis*, 3>& axes) const {
+  const auto& [x, y, z] = axes;
+  const SheetMotion& motion = sheet.motion;
+  Face face;
+  face.geometry = geometry;
+  face.body = body;
+  face.law = sheet.drop();
+  const SheetFace& g = face.geometry;
+  if (!motion.velocity.empty()) {
+    face.geometry.normal = geometry.across;
+    face.moves = true, face.velocity = motion.velocity[g.triangle];
+    const Axis& axis = *axes[static_cast<std::size_t>(g.axis)];
+    const int c = g.axis == 0 ? g.i : g.axis == 1 ? g.j : g.k;
+    const double off = along(g.axis, g.point) - axis.edge[c];
+    face.beyond = off * axis.inverse_width[off > 0 ? c : c - 1];
+    if (c < 3 || c + 3 > axis.n) face.beyond = 0;
+    face.apart = 1 / axis.inverse_distance[c];
+  }
+  if (!motion.yields.empty()) face.yields = motion.yields[g.triangle];
+  if (!motion.pressure.empty()) face.known = (g.against ? -1 : 1) * motion.pressure[g.triangle];
+  face.area = (g.axis == 0 ? 1 : x->width[g.i]) * (g.axis == 1 ? 1 : y->width[g.j]) *
+              (g.axis == 2 ? 1 : z->width[g.k]);
+  face.cover = g.cover;
+  face.spread = (face.moves ? face.cover : 1) * face.area / std::max(g.area, 1e-2 * face.area);
+  face.yields *= std::max(1.0, face.spread / widest_spread);
+  return face;
 }
 
 void SheetRows::lay_out() {
@@ -151,7 +169,7 @@ void SheetRows::lay_out() {
     if (at == 0) at = size, size += width;
     face.at = at + g.i;
     touched_[row(g.j, g.k)] = 1;
-    if (g.axis == 1) touched_[row(g.j - 1, g.k)] = 1;
+    if (g.axis == 1 && g.j > 0) touched_[row(g.j - 1, g.k)] = 1;
     if (g.axis == 2) touched_[row(g.j, g.k - 1)] = 1;
   }
   law_.assign(size, 0);
@@ -185,7 +203,7 @@ void SheetRows::begin(State& state, const Layout& layout) const {
   state.drop.assign(faces_.size(), 0);
   for (const Face& face : faces_) {
     const auto [low, high] = cells(face.geometry, layout);
-    state.held[face.at] = state.f.p[low] - state.f.p[high];
+    state.held[face.at] = face.in_plane ? 0 : state.f.p[low] - state.f.p[high];
   }
 }
 
@@ -257,7 +275,7 @@ void SheetRows::update(State& state, const Layout& layout, double momentum, doub
     excess_[face.at] += face.drop;
     stiffness_[face.at] += face.slope;
   }
-  for (const Face& face : faces_) law_[face.at] = excess_[face.at];
+  for (const Face& face : faces_) law_[face.at] = face.in_plane ? 0 : excess_[face.at];
   for (const Face& face : faces_) excess_[face.at] = law_[face.at] - state.held[face.at];
   if (step > 0) hold_in_the_middle(state, layout, step);
 }
@@ -307,7 +325,7 @@ Array<double> SheetRows::distance(const Axis& x, const Axis& y, const Axis& z, c
   for (int f = 0; f < static_cast<int>(faces_.size()); ++f) {
     const SheetFace& g = faces_[f].geometry;
     offer(g.i, g.j, g.k, f);
-    offer(g.i - (g.axis == 0), g.j - (g.axis == 1), g.k - (g.axis == 2), f);
+    if (!faces_[f].in_plane) offer(g.i - (g.axis == 0), g.j - (g.axis == 1), g.k - (g.axis == 2), f);
   }
   // The nearest face of a cell is nearly always that of one of its neighbours: swept to
   // and fro along each axis.
@@ -347,28 +365,41 @@ Array<double> SheetRows::distance(const Axis& x, const Axis& y, const Axis& z, c
   return result;
 }
 
+SheetLoad SheetRows::load_on(const Face& face, double drop, const State& state, const Layout& layout) const {
+  const SheetFace& g = face.geometry;
+  SheetLoad load;
+  load.body = face.body;
+  load.triangle = g.triangle;
+  load.point = g.point;
+  load.outward = g.outward;
+  load.drop = g.against ? -drop : drop;
+  load.cover = face.cover;
+  const double force = drop * face.area;
+  load.force = {g.axis == 0 ? force : 0, g.axis == 1 ? force : 0, g.axis == 2 ? force : 0};
+  load.area = face.cover * face.area * along(g.axis, g.normal);
+  const auto [below, above] = cells(g, layout);
+  const double mean = 0.5 * (state.f.p[below] + state.f.p[above]),
+               half = 0.5 * (state.held[face.at] + state.change[face.at]);
+  if (face.lowest) (g.against ? load.outside : load.inside) = mean + half;
+  if (face.highest) (g.against ? load.inside : load.outside) = mean - half;
+  return load;
+}
+
 std::vector<SheetLoad> SheetRows::loads(const State& state, const Layout& layout) const {
   std::vector<SheetLoad> result;
-  result.reserve(faces_.size());
+  result.reserve((quarter_ ? images : 1) * faces_.size());
   for (std::size_t n = 0; n < faces_.size(); ++n) {
     const Face& face = faces_[n];
-    const SheetFace& g = face.geometry;
-    SheetLoad load;
-    load.body = face.body;
-    load.triangle = g.triangle;
-    load.point = g.point;
-    load.outward = g.outward;
-    load.drop = g.against ? -state.drop[n] : state.drop[n];
-    load.cover = face.cover;
-    const double force = state.drop[n] * face.area;
-    load.force = {g.axis == 0 ? force : 0, g.axis == 1 ? force : 0, g.axis == 2 ? force : 0};
-    load.area = face.cover * face.area * along(g.axis, g.normal);
-    const auto [below, above] = cells(g, layout);
-    const double mean = 0.5 * (state.f.p[below] + state.f.p[above]),
-                 half = 0.5 * (state.held[face.at] + state.change[face.at]);
-    if (face.lowest) (g.against ? load.outside : load.inside) = mean + half;
-    if (face.highest) (g.against ? load.inside : load.outside) = mean - half;
+    const SheetLoad load = load_on(face, state.drop[n], state, layout);
     result.push_back(load);
+    const int in_plane = face.in_plane ? 1 << face.geometry.axis : 0;  // its own image there
+    for (int image = 1; quarter_ && image < images; ++image) {
+      if ((image & in_plane) != 0) continue;
+      SheetLoad& other = result.emplace_back(load);
+      other.triangle = face.triangle[static_cast<std::size_t>(image)];
+      other.point = mirrored(load.point, image), other.outward = mirrored(load.outward, image);
+      other.force = mirrored(load.force, image);
+    }
   }
   return result;
 }

@@ -5,9 +5,11 @@
 // velocity on either side ("balanced force", Francois et al. 2006).
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "ripstop/flow/cartesian/grid.h"
+#include "ripstop/flow/cartesian/quarter.h"
 #include "ripstop/flow/cartesian/sheet_faces.h"
 #include "ripstop/flow/flow.h"
 
@@ -21,8 +23,9 @@ class SheetRows {
  public:
   SheetRows() = default;
   /// Throws Error(bad_data) for coefficients that are negative or not finite, or a number of velocities that
-  /// is not that of the triangles.
-  SheetRows(const Axis& x, const Axis& y, const Axis& z, const std::vector<FlowBody>& bodies);
+  /// is not that of the triangles. `quarter`: the axes are those of a quarter (quarter.h), the bodies are whole.
+  SheetRows(const Axis& x, const Axis& y, const Axis& z, const std::vector<FlowBody>& bodies,
+            bool quarter = false);
 
   bool empty() const { return faces_.empty(); }
   /// Whether the sheets leave next to nothing of the box's cross-section open.
@@ -49,7 +52,7 @@ class SheetRows {
   /// Distance of each cell's centre to the nearest face that a sheet parts [m], no less
   /// than half the least cell.
   Array<double> distance(const Axis& x, const Axis& y, const Axis& z, const Layout& layout) const;
-  /// Loads of the air on the sheets, face by face.
+  /// Loads of the air on the sheets, face by face; of a quarter those of the mirror images too.
   std::vector<SheetLoad> loads(const State& state, const Layout& layout) const;
 
  private:
@@ -71,13 +74,19 @@ class SheetRows {
     double cover = 1;                      // the part of it that the sheet covers
     double layer = 1;                      // its part of the face's drop
     bool lowest = false, highest = false;  // of the layers that part the same two centres
+    bool in_plane = false;                 // of symmetry: no air passes, and nothing drops
+    std::array<int, images> triangle{};    // of each mirror image, in a quarter
     std::size_t at = 0;                    // in the dense rows
   };
   void hold_in_the_middle(const State& state, const Layout& layout, double step);
   void add_faces(const Axis& x, const Axis& y, const Axis& z, const std::vector<FlowBody>& bodies);
+  Face face_of(const SheetFace& geometry, int body, const FlowBody& sheet,
+               const std::array<const Axis*, 3>& axes) const;
   void lay_out();
+  SheetLoad load_on(const Face& face, double drop, const State& state, const Layout& layout) const;
 
   int nx_ = 0, ny_ = 0, nz_ = 0;
+  bool quarter_ = false;
   std::vector<Face> faces_;
   std::vector<std::vector<std::size_t>> offset_;  // one table an axis; 0: the row of zeros
   std::vector<char> touched_;

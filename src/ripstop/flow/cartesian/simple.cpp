@@ -6,6 +6,7 @@
 
 #include "ripstop/flow/average.h"
 #include "ripstop/flow/boundaries.h"
+#include "ripstop/flow/cartesian/quarter.h"
 #include "ripstop/flow/cartesian/solver.h"
 
 namespace ripstop::cartesian {
@@ -48,7 +49,7 @@ Scratch::Scratch(const Discretisation& d, int threads) : sums(d.grid.ny, d.grid.
 Solver::Solver(const FlowProblem& problem, const FlowGrid& grid, PorousRows porous,
                const CartesianSettings& settings, ThreadTeam& team)
     : d_(grid, problem.air, settings, make_sides(sides_of(problem))->pressure_end(),
-         make_sides(sides_of(problem))->everywhere()),
+         make_sides(sides_of(problem))->everywhere(), problem.quarter),
       b_(boundaries_of(problem, d_)),
       s_(d_.layout),
       t_(d_, team.size()),
@@ -112,7 +113,7 @@ void Solver::start_from(const Solver& coarse) {
 
 void Solver::place(PorousRows porous, const std::vector<FlowBody>& bodies) {
   in_the_way_.porous = std::move(porous);
-  const SheetRows before = std::exchange(in_the_way_.sheets, SheetRows(d_.x, d_.y, d_.z, bodies));
+  const SheetRows before = std::exchange(in_the_way_.sheets, SheetRows(d_.x, d_.y, d_.z, bodies, d_.quarter));
   in_the_way_.sheets.begin(s_, d_.layout, before);
   if (s_.untouched) s_.eased = in_the_way_.sheets.empty() ? 0 : eased_iterations;
   in_the_way_.wall = {};
@@ -168,7 +169,8 @@ FlowProgress Solver::close_iteration() {
   const auto mean = [&](Sums::Name name) { return sum.value[name] * per_volume; };
   s_.mean = {mean(Sums::u_mean), mean(Sums::v_mean), mean(Sums::w_mean),
              mean(Sums::p_mean), mean(Sums::k_mean), mean(Sums::omega_mean)};
-  s_.force = {sum.value[Sums::drag_x], sum.value[Sums::drag_y], sum.value[Sums::drag_z]};
+  if (d_.quarter) s_.mean.u = s_.mean.v = 0;
+  s_.force = of_whole_box({sum.value[Sums::drag_x], sum.value[Sums::drag_y], sum.value[Sums::drag_z]});
   in_the_way_.sheets.settle(s_);
   for (const SheetLoad& load : in_the_way_.sheets.loads(s_, d_.layout)) s_.force += load.force;
   ++s_.iteration;
@@ -183,6 +185,10 @@ FlowProgress Solver::close_iteration() {
   progress.residual_omega = sum.ratio(Sums::omega_residual);
   progress.drag = dot(s_.force, d_.air.direction());
   return progress;
+}
+
+Vec3 Solver::of_whole_box(Vec3 sum) const {
+  return d_.quarter ? Vec3{0, 0, images * sum.z} : sum;
 }
 
 std::array<Solver::Bounded, 6> Solver::bounded() const {
@@ -249,6 +255,8 @@ BodyLoad Solver::load_on(const PorousCells& porous, Vec3 about) const {
     const Vec3 force = (d_.grid.cell_volume(cell) * resistance) * velocity;
     load.force += force, load.moment += cross(d_.grid.centre(i, j, k) - about, force);
   }
+  // The line of action of mirrored forces is the axis.
+  if (d_.quarter) load.force = of_whole_box(load.force), load.moment = cross(-1.0 * about, load.force);
   return load;
 }
 
@@ -263,7 +271,7 @@ FlowField Solver::field_without_cells() const {
   field.grid = d_.grid;
   field.porous_force = s_.force;
   field.sheet_loads = in_the_way_.sheets.loads(s_, d_.layout);
-  field.momentum_deficit = momentum_deficit(d_, b_, s_);
+  field.momentum_deficit = of_whole_box(momentum_deficit(d_, b_, s_));
   return field;
 }
 

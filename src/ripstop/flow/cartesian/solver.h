@@ -143,6 +143,7 @@ class Solver {
   void convection(int j, int k);  // convection.cpp
   void march(int rank, IndexRange rows);
   void eddy_viscosity(MarchRings& rings, int k, IndexRange rows) const;
+  void mirror_viscosity(double* row, int j) const;
   // A step in time (time_step.cpp).
   void rates(int rank, IndexRange rows);
   void eddies(MarchRings& rings, int k, IndexRange rows);
@@ -175,6 +176,8 @@ class Solver {
   void draw_cells(FlowField& field, double share) const;
   void take_new_turbulence();
   FlowProgress close_iteration();
+  /// Of the whole box, from the sum over the cells of this grid.
+  Vec3 of_whole_box(Vec3 sum) const;
   struct Bounded {
     const char* name;
     const Array<double>* values;

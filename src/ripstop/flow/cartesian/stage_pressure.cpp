@@ -9,8 +9,8 @@ namespace ripstop::cartesian {
 
 void Solver::matrix_ghosts(int k) {
   const double mirror = b_.sides->mirror();
-  side_ghosts(d_, t_.hu, k, mirror, 1), side_ghosts(d_, t_.hv, k, 1, mirror);
-  if (!uniform()) side_ghosts(d_, t_.ra, k, 1, 1), side_ghosts(d_, t_.rc, k, 1, 1);
+  side_ghosts(d_, t_.hu, k, 0, mirror), side_ghosts(d_, t_.hv, k, 1, mirror);
+  if (!uniform()) side_ghosts(d_, t_.ra, k), side_ghosts(d_, t_.rc, k);
   if (!b_.open() || k > 0) return;
   for (Array<double>* q : {&t_.hw, &t_.ra, &t_.rc}) {  // of the low end; the high one has rows of its own
     for (int j = 0; j < d_.grid.ny; ++j) {

@@ -58,7 +58,15 @@ void Solver::eddy_viscosity(MarchRings& rings, int k, IndexRange rows) const {
     double* mut = rings.mut.row(k, rings.at(d_.layout, j, rows.begin));
     eddy_viscosity_row(d_.grid.nx, density_of_row(j, k), &s_.f.k[at], &s_.f.omega[at], mut);
     if (!in_the_way_.wall.empty()) limit_row(d_.grid.nx, &s_.limit[at], mut);
+    mirror_viscosity(mut, j);
   }
+}
+
+// The value beyond the planes of symmetry, from row j of a ring.
+void Solver::mirror_viscosity(double* row, int j) const {
+  if (!d_.quarter) return;
+  row[-1] = row[0];
+  if (j == 0) std::copy_n(row, d_.grid.nx, row - d_.layout.stride_y);
 }
 
 TurbulenceRow Solver::turbulence_of(MarchRings& rings, int j, int k, IndexRange rows) {
@@ -115,12 +123,15 @@ void Solver::turbulence(MarchRings& rings, int k, IndexRange rows) {
   for_rows({and_around, northward()}, [&](int j) {
     const TurbulenceRow r = turbulence_of(rings, j, k, rows);
     const TurbulenceSums sum = turbulence_row(r);
-    // Beyond the sides the explicit stress is that of the last cell.
+    mirror_viscosity(r.mu_new, j);
+    // Beyond the sides the explicit stress is that of the last cell; in a plane of symmetry its tangential components
+    // change their sign.
     for (int c = 0; c < 3; ++c) {
       double *tx = r.stress.x + c * rings.component, *ty = r.stress.y + c * rings.component;
-      tx[-1] = tx[0];
+      tx[-1] = d_.quarter && c != 0 ? -tx[0] : tx[0];
       tx[d_.grid.nx] = tx[d_.grid.nx - 1];
-      if (j == 0) std::copy_n(ty, d_.grid.nx, ty - d_.layout.stride_y);
+      const double sign = d_.quarter && c != 1 ? -1 : 1;
+      for (int i = 0; j == 0 && i < d_.grid.nx; ++i) ty[i - d_.layout.stride_y] = sign * ty[i];
       if (j == d_.grid.ny - 1) std::copy_n(ty, d_.grid.nx, ty + d_.layout.stride_y);
     }
     if (j < rows.begin || j >= rows.end) return;

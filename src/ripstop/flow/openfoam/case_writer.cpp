@@ -322,6 +322,7 @@ void check(const FlowProblem& problem) {
   refuse(sides != Sides::far_field && problem.outlet != Outlet::fixed_pressure,
          fmt::format("outlet = \"{}\"", problem.outlet.word));
   refuse(!problem.body_force.empty(), "a force on the air");
+  refuse(problem.quarter, "a quarter of the domain");
   const FlowGrid& grid = problem.grid;
   for (const int n : {grid.nx, grid.ny, grid.nz}) range("number of cells along an axis", n, 1, 4000, "");
   range("number of cells", double(grid.nx) * grid.ny * grid.nz, 1, 2e8, "");

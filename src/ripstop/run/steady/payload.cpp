@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "ripstop/run/engine.h"
+#include "ripstop/run/steady/coarse_start.h"
 #include "ripstop/run/steady/steady_parts.h"
 
 namespace ripstop {
@@ -46,7 +47,7 @@ double own_drag(const Settings& resolved, double speed) {
 // D goes with v^2 as long as the shape stays: the next speed is v (W / D)^(1/2). The coupling iterates the shape at
 // the same time, so the search costs about as many iterations as one run.
 SteadySolution run_with_payload(const Settings& resolved, SteadyObserver& observer,
-                                const SteadySettings& settings) {
+                                const SteadySettings& settings, RunClock clock) {
   const double weight = suspended_weight(resolved, *resolved.payload().mass_kg);
   const int most = resolved.coupling().max_iterations;
   Settings now = resolved;
@@ -55,6 +56,9 @@ SteadySolution run_with_payload(const Settings& resolved, SteadyObserver& observ
   SteadyState& state = solution.state;
   state = parts.solver->start();
   observer.begin({now, *parts.solver, parts.engine->name()}, state);
+  clock.count_earlier(state);
+  const auto start = coarse_start(resolved, *parts.solver, state, observer, settings);
+  if (start) start->give(state);
   if (state.speed == 0) state.speed = now.flow().speed_m_s, state.speeds = 1;
   const auto drag_over_weight = [&] {
     return (state.iterations.back().fluid_force + own_drag(resolved, state.speed)) / weight;
@@ -63,7 +67,8 @@ SteadySolution run_with_payload(const Settings& resolved, SteadyObserver& observ
     now = at_speed(now, state.speed);
     parts = parts_at(std::move(parts), now, settings);
   };
-  if (state.speed != now.flow().speed_m_s) take_speed();  // of a run that was killed
+  if (state.speed != now.flow().speed_m_s) take_speed();  // of a coarse start, or of a run that was killed
+  if (start) parts.solver->flow().continue_from(start->flow.path);
   for (;;) {
     if (!state.iterations.empty()) {
       const double share = drag_over_weight();
@@ -88,6 +93,7 @@ SteadySolution run_with_payload(const Settings& resolved, SteadyObserver& observ
   solution.result = steady_result(*parts.solver, state, now);
   solution.result.payload = {*resolved.payload().mass_kg,     parachute_mass(resolved), weight,
                              own_drag(resolved, state.speed), drag_over_weight(),       state.speeds};
+  solution.result.wall_time = clock.elapsed();
   observer.ended({now, *parts.solver, parts.engine->name()}, state, solution.result);
   return solution;
 }

@@ -8,12 +8,14 @@
 #include <utility>
 #include <vector>
 
+#include "ripstop/canopy/mirror.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/cost.h"
 #include "ripstop/case/resolve.h"
 #include "ripstop/run/engine.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/quality.h"
+#include "ripstop/run/steady/coarse_start.h"
 #include "ripstop/run/steady/steady_parts.h"
 #include "ripstop/run/steady/warnings.h"
 
@@ -36,6 +38,14 @@ void take_quality(SteadyResult& r, const Settings& resolved) {
   const bool needs_cells = resolved.coupling().load == CanopyLoad::of_flow;
   r.usable = judgement.usable && (!needs_cells || judge({{"cells_across", cells_across(resolved)}}).usable);
   r.warnings = std::move(judgement.warnings);
+}
+
+SolvedDomain solved_domain(const SteadySolver& solver, const SteadyState& state) {
+  SolvedDomain domain{solver.full_box_because().empty() ? "quarter" : "full", solver.full_box_because(), {}};
+  if (!domain.because.empty()) return domain;
+  if (const std::optional<MirrorImages> images = mirror_images(solver.mesh()))
+    domain.asymmetry = mirror_gap(solver.mesh(), *images, state.shape);
+  return domain;
 }
 
 UnsteadyResult unsteady_result(const WindowAverage& watched, const Settings& resolved) {
@@ -70,13 +80,13 @@ SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state,
   r.stress = stress_peak(solver.mesh(), state.shape, cell_stress(solver.cloth(), cloth));
   r.margins = case_margins(resolved, solver.mesh(), tensions, r.stress);
   r.iterations = r.last.iteration;
-  for (const SteadyIteration& i : state.iterations) r.wall_time += i.wall_time;
   r.converged = state.converged;
   r.transfer_factor = r.last.transfer_factor;
   r.load_remainder = r.last.residual_traction;
   r.axial_moment = r.last.axial_moment;
   r.section_gap = r.last.section_gap;
   r.ledger = {r.last.fluid_force, r.last.nodal_load, r.last.line_tension, r.last.momentum_deficit};
+  r.domain = solved_domain(solver, state);
   if (state.in_time) r.unsteady = unsteady_result(state.window, resolved);
   r.measured = resolved.measured_row();
   take_quality(r, resolved);
@@ -120,7 +130,8 @@ void require_steady_memory(const Settings& resolved) {
 SteadySolution run_steady(const Settings& resolved, SteadyObserver& observer,
                           const SteadySettings& settings) {
   require_steady_memory(resolved);
-  if (resolved.payload().mass_kg) return run_with_payload(resolved, observer, settings);
+  RunClock clock;
+  if (resolved.payload().mass_kg) return run_with_payload(resolved, observer, settings, clock);
   const SteadyParts parts = steady_parts(resolved, settings);
   SteadySolver& solver = *parts.solver;
   const SteadyRun run{resolved, solver, parts.engine->name()};
@@ -128,12 +139,18 @@ SteadySolution run_steady(const Settings& resolved, SteadyObserver& observer,
   SteadyState& state = solution.state;
   state = solver.start();
   observer.begin(run, state);
+  clock.count_earlier(state);
+  if (const auto start = coarse_start(resolved, solver, state, observer, settings)) {
+    start->give(state);
+    solver.flow().continue_from(start->flow.path);
+  }
   while (!solver.finished(state)) {
     solution.flow =
         solver.iterate(state, [&](const SteadyProgress& progress) { observer.progress(progress, state); });
     observer.iterated(run, state, solution.flow);
   }
   solution.result = steady_result(solver, state, resolved);
+  solution.result.wall_time = clock.elapsed();
   observer.ended(run, state, solution.result);
   return solution;
 }
@@ -153,7 +170,8 @@ bool start_from(const Settings& other, const SteadyState& end, const SteadyRun& 
   for (Vec3& p : state.shape) p.z += shift;
   for (double& dp : state.pressure) dp *= ratio;
   state.residual_traction = {ratio * end.residual_traction.at_centre, ratio * end.residual_traction.twist};
-  return same_flow(resolved.flow(), other.flow());
+  return same_flow(resolved.flow(), other.flow()) &&
+         steady_problem(other).flow.quarter == run.solver.full_box_because().empty();
 }
 
 }  // namespace ripstop

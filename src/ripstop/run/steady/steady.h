@@ -68,6 +68,18 @@ void each_member(T& p, Visit&& visit) {
   visit("drag_over_weight", p.drag_over_weight);
   visit("speeds_tried", p.speeds);
 }
+/// The part of the box in which the flow was solved.
+struct SolvedDomain {
+  std::string part;                 // "quarter" or "full"
+  std::string because;              // why the full one; empty for a quarter
+  std::optional<double> asymmetry;  // of the shape in a quarter: mirror_gap() [m]
+};
+template <Of<SolvedDomain> T, class Visit>
+void each_member(T& d, Visit&& visit) {
+  visit("part", d.part);
+  visit("reason", d.because);
+  visit("canopy_asymmetry_m", d.asymmetry);
+}
 /// Of the drag to the weight, relative.
 inline constexpr double payload_tolerance = 1e-3;
 
@@ -84,10 +96,11 @@ struct SteadyResult {
   double max_line_tension = 0;  // [N]
   StressPeak stress;
   int iterations = 0;
-  double wall_time = 0;  // of all coupling iterations [s]
+  double wall_time = 0;  // of the run, earlier parts of a resumed one included [s]
   bool converged = false;
   double transfer_factor = 0, load_remainder = 0, axial_moment = 0, section_gap = 0;
   Ledger ledger;
+  std::optional<SolvedDomain> domain;  // absent in results of earlier versions
   std::optional<UnsteadyResult> unsteady;
   std::optional<HeldPayload> payload;                // of a case with one
   std::optional<Margins> margins;                    // absent in results of earlier versions
@@ -126,6 +139,7 @@ void each_member(T& r, Visit&& visit) {
   visit("axial_moment_n_m", r.axial_moment);
   visit("section_gap", r.section_gap);
   visit("ledger", r.ledger);
+  visit("flow_domain", r.domain);
   visit("unsteady", r.unsteady);
   visit("payload", r.payload);
   visit("margins", r.margins);
@@ -153,6 +167,8 @@ class SteadyObserver {
   /// Before the first iteration. An observer with an earlier state puts it in place of the cold start, and
   /// restores the flow that belongs to it.
   virtual void begin(const SteadyRun&, SteadyState&) {}
+  /// The run starts from this result on coarser cells.
+  virtual void solved_coarse(const SteadyRun&, const SteadyResult&) {}
   /// Failures that did not stop the run.
   virtual void warned(const std::string&) {}
   virtual void progress(const SteadyProgress&, const SteadyState&) {}

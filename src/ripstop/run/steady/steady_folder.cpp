@@ -35,6 +35,9 @@ class SteadyFolder : public SteadyObserver {
       : folder_(folder), fields_(settings.run.fields), warm_from_(settings.warm_from), next_(next) {}
 
   void begin(const SteadyRun& run, SteadyState& state) override;
+  void solved_coarse(const SteadyRun& run, const SteadyResult& result) override {
+    next_.solved_coarse(run, result);
+  }
   void warned(const std::string& text) override { next_.warned(text); }
   void progress(const SteadyProgress& progress, const SteadyState& state) override {
     next_.progress(progress, state);

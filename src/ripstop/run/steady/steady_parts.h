@@ -1,6 +1,7 @@
 // Parts of a steady run for its two forms: at a given speed, and at the speed at which drag equals weight.
 #pragma once
 
+#include <chrono>
 #include <memory>
 
 #include "ripstop/core/file.h"
@@ -18,8 +19,23 @@ SteadyParts steady_parts(const Settings& resolved, const SteadySettings& setting
 /// Of the state in which the run ended.
 SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state, const Settings& resolved);
 
-/// run_steady() of a case with payload.mass_kg.
+/// Wall time of a run, with that of the iterations before it was resumed.
+class RunClock {
+ public:
+  void count_earlier(const SteadyState& resumed) {
+    for (const SteadyIteration& i : resumed.iterations) earlier_ += i.wall_time;
+  }
+  double elapsed() const {
+    return earlier_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  double earlier_ = 0;
+};
+
+/// run_steady() of a case with payload.mass_kg; `clock` was started with the run.
 SteadySolution run_with_payload(const Settings& resolved, SteadyObserver& observer,
-                                const SteadySettings& settings);
+                                const SteadySettings& settings, RunClock clock);
 
 }  // namespace ripstop

@@ -1,0 +1,80 @@
+// The part of the flow domain that a steady run solves: flow.symmetry.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "ripstop/case/assemble.h"
+#include "ripstop/core/error.h"
+
+namespace ripstop {
+namespace {
+
+Settings mirrored_canopy(std::vector<Setting> set) {
+  Overrides overrides;
+  overrides.set = std::move(set);
+  overrides.set.push_back({"parachute.mesh.cloth_nodes", "1500"});
+  return resolve(
+      read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/flat-circular/case.toml", overrides));
+}
+
+std::string full_because(std::vector<Setting> set) {
+  set.insert(set.begin(), {"flow.symmetry", "auto"});
+  const SteadyProblem problem = steady_problem(mirrored_canopy(std::move(set)));
+  EXPECT_EQ(problem.flow.quarter, problem.full_box_because.empty());
+  return problem.full_box_because;
+}
+
+const Setting nine_gores{"parachute.gores", "9"}, nine_lines{"parachute.lines.count", "9"},
+    no_vent_lines{"parachute.vent_lines", "false"};
+
+TEST(Symmetry, AutoSolvesAQuarterWhereCanopyCellsAndStreamAreMirrored) {
+  EXPECT_EQ(full_because({}), "");
+  EXPECT_FALSE(steady_problem(mirrored_canopy({})).flow.quarter);
+  EXPECT_EQ(full_because({{"flow.symmetry", "quarter"}}), "");
+  EXPECT_EQ(full_because({{"flow.symmetry", "full"}}), "flow.symmetry is \"full\"");
+  EXPECT_EQ(full_because({nine_gores, nine_lines, no_vent_lines}), "the number of gores is odd (9)");
+  EXPECT_EQ(full_because({{"flow.cells", "[81, 80, 98]"}}),
+            "the number of cells across the stream is odd (81)");
+  EXPECT_EQ(full_because({{"flow.unsteady", "true"}}), "the flow is unsteady");
+  EXPECT_EQ(full_because({{"flow.porosity_model", "paper"}}),
+            "the \"paper\" model is compared with the full domain of its source");
+  EXPECT_EQ(full_because({{"flow.porosity_model", "paper"}, {"flow.symmetry", "quarter"}}), "");
+  EXPECT_EQ(full_because({{"flow.core.off_axis", "0.25"}}),
+            "the cells are not symmetric about the canopy axis");
+}
+
+TEST(Symmetry, AnEngineWithoutPlanesOfSymmetrySolvesTheFullDomain) {
+  EXPECT_EQ(full_because({{"flow.engine", "openfoam"},
+                          {"flow.sides", "slip"},
+                          {"flow.outlet", "fixed-pressure"},
+                          {"flow.average_over", "0"}}),
+            "the flow engine \"openfoam\" has no planes of symmetry");
+  EXPECT_THROW(mirrored_canopy({{"flow.engine", "openfoam"},
+                                {"flow.symmetry", "quarter"},
+                                {"flow.sides", "slip"},
+                                {"flow.outlet", "fixed-pressure"},
+                                {"flow.average_over", "0"}}),
+               Error);
+}
+
+TEST(Symmetry, AQuarterIsRefusedWithTheReason) {
+  const auto refusal = [](std::vector<Setting> set) -> std::string {
+    set.push_back({"flow.symmetry", "quarter"});
+    try {
+      steady_problem(mirrored_canopy(std::move(set)));
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::usage);
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_EQ(refusal({nine_gores, nine_lines, no_vent_lines}),
+            "flow.symmetry = \"quarter\": not possible, because the number of gores is odd (9); set it to "
+            "\"auto\" or \"full\"");
+  EXPECT_NE(refusal({{"flow.cells", "[80, 81, 98]"}}).find("odd (81)"), std::string::npos);
+  EXPECT_NE(refusal({{"flow.unsteady", "true"}}).find("the flow is unsteady"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace ripstop
