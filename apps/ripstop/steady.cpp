@@ -96,6 +96,10 @@ void print_result(const SteadyResult& r, const Settings& resolved, const fs::pat
   row("maximum yarn force",
       fmt::format("{:.0f} N/m warp, {:.0f} N/m weft; {:.0f} % of the cloth wrinkled, {:.0f} % slack",
                   r.stress.warp, r.stress.weft, 100 * r.stress.wrinkled, 100 * r.stress.slack));
+  for (const BodyResult& body : r.bodies.value_or(std::vector<BodyResult>()))
+    row(("body " + body.name).c_str(),
+        fmt::format("drag {:.3g} N, coefficient {:.3f} on {:.4g} m2; side force {:.2g} N", body.drag,
+                    body.drag_coefficient, body.reference_area, body.side));
   print_payload(r);
   print_margins(r.margins);
   row("force balance",

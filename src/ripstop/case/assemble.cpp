@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
+#include "ripstop/case/bodies.h"
 #include "ripstop/case/cost.h"
 #include "ripstop/core/error.h"
 #include "ripstop/flow/projections.h"
@@ -39,6 +42,7 @@ FlowProblem flow_problem(const Settings& resolved) {
   const ClothResistance& cloth = resolved.materials().canopy.resistance;
   if (flow.porosity_model == PorosityModel::sheet) {
     problem.bodies = {sheet_body({}, as_sheet(cloth))};
+    for (FlowBody& body : rigid_bodies(resolved).bodies) problem.bodies.push_back(std::move(body));
   } else {
     const PorousCellLaw cells = as_cells(cloth);
     problem.bodies = {porous_body({{}, cells.darcy, cells.forchheimer})};

@@ -396,6 +396,38 @@ void check_inflation(const Case& given, Findings& findings) {
     check_line_nodes(given.parachute, "inflation.line_segment_m", *inflation.line_segment_m, findings);
 }
 
+/// Rigid bodies: their own proportions, and a cloth and an engine that can be in one flow with them.
+void check_bodies(const Case& given, const FlowSettings& flow, Findings& findings) {
+  for (const auto& [name, keys] : given.bodies) {
+    const std::string table = "body." + name;
+    if (!findings.sound({table})) continue;
+    if (name == "canopy")
+      findings.add(table, "", "", "the canopy itself has this name; choose another one for the body");
+    if (flow.porosity_model != PorosityModel::sheet)
+      findings.add("flow.porosity_model", quoted("paper"), quoted("sheet"),
+                   fmt::format("the body {} needs the sheet model", quoted(name)));
+    const auto at_most = [&](const char* key, double value, double limit, const char* why) {
+      if (value > limit) findings.add(table + "." + key, value, fmt::format("at most {:g}", limit), why);
+    };
+    if (const auto* c = std::get_if<CylinderKeys>(&keys.shape))
+      at_most("nose_length_m", c->nose_length_m, c->length_m, "the nose is part of the length");
+    if (const auto* s = std::get_if<CapsuleKeys>(&keys.shape)) {
+      at_most("base_diameter_m", s->base_diameter_m, s->diameter_m, "the base is not wider than the capsule");
+      if (s->nose_radius_m < 0.5 * s->diameter_m) {
+        findings.add(table + ".nose_radius_m", s->nose_radius_m,
+                     fmt::format("at least {:g}", 0.5 * s->diameter_m),
+                     "the front is a part of a sphere as wide as the capsule");
+      } else {
+        const double r = s->nose_radius_m, half = 0.5 * s->diameter_m,
+                     front = r - std::sqrt(r * r - half * half);
+        if (s->length_m <= front)
+          findings.add(table + ".length_m", s->length_m, fmt::format("above {:.4g}", front),
+                       "the spherical front alone is so long");
+      }
+    }
+  }
+}
+
 void check_deployment(const Case& given, Findings& findings) {
   if (!given.deployment) return;
   if (given.deployment->relative_speed_m_s && given.deployment->ejection_impulse_n_s &&
@@ -426,6 +458,7 @@ void check_settings(Case given, Findings& findings) {
     check_box(given, flow, findings);
     if (findings.sound({"flow.cells"})) check_cells(given, flow, findings);
   }
+  check_bodies(given, flow, findings);
   check_average(flow, findings);
   check_opening_air(given, flow, findings);
   check_watch(given, flow, findings);
