@@ -6,19 +6,21 @@
 #include <algorithm>
 #include <cmath>
 
-#include "refusal.h"
+#include "../refusal.h"
+#include "../small_case.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/resolve.h"
 #include "ripstop/core/toml/problem.h"
 #include "ripstop/flow/extent.h"
-#include "small_case.h"
 
 namespace ripstop {
 namespace {
 
 Case behind_a_cylinder(double trailing_distance_m) {
   Case given = flat_circular_case(0.6, 1000, 20);
-  given.bodies["rocket"] = {CylinderKeys{0.2, 1, 0}, trailing_distance_m};
+  BodyKeys& rocket = given.bodies["rocket"];
+  rocket.shape = CylinderKeys{0.2, 1, 0};
+  rocket.trailing_distance_m = trailing_distance_m;
   return given;
 }
 
@@ -32,13 +34,13 @@ TEST(Bodies, LieUpstreamOfTheSkirtByTheTrailingDistance) {
   EXPECT_NEAR(extent.low[2], resolved.flow().canopy_position_m - 2.5, 1e-12);
 }
 
-TEST(Bodies, TheDefaultDomainAndItsCoreBeginUpstreamOfThemWithCellsOfTheSameSize) {
+TEST(Bodies, TheDefaultDomainAndItsCoreBeginUpstreamOfThemWithCellsNoLarger) {
   Case given = behind_a_cylinder(1.5);
   const Settings with = resolve(checked(given));
   given.bodies.clear();
   const Settings without = resolve(checked(given));
   const double front = with.flow().canopy_position_m - 2.5;
-  EXPECT_NEAR(front, 2 * 0.2, 1e-9);
+  EXPECT_NEAR(front, 4 * 0.2, 1e-9);
   EXPECT_NEAR(with.flow().core.start_m, front - 0.5 * 0.2, 1e-9);
   const auto downstream = [](const Settings& one) {
     return one.flow().box_m.z - one.flow().canopy_position_m;
@@ -48,7 +50,8 @@ TEST(Bodies, TheDefaultDomainAndItsCoreBeginUpstreamOfThemWithCellsOfTheSameSize
     const FlowGrid grid = flow_grid(one.flow());
     return grid.width(2, grid.cell_at(2, one.flow().canopy_position_m));
   };
-  EXPECT_NEAR(cell(with) / cell(without), 1, 0.05);
+  EXPECT_LE(cell(with) / cell(without), 1);
+  EXPECT_GE(cell(with) / cell(without), 0.85);
 }
 
 TEST(Bodies, WithoutADistanceHangAtTheEndOfTheRiser) {

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "refusal.h"
+#include "../refusal.h"
 #include "ripstop/flow/extent.h"
 
 namespace ripstop {

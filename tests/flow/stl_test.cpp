@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "refusal.h"
+#include "../refusal.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 

@@ -118,7 +118,7 @@ struct Room {
   int cells = 0;
 };
 
-/// Half a width of the widest body upstream of the foremost one in the core, and 2 in the domain.
+/// Half a width of the widest body upstream of the foremost one in the core, and 4 in the domain.
 Room room_for_bodies(const Case& written, const FlowSettings& flow, double d) {
   if (written.bodies.empty() || flow.porosity_model != PorosityModel::sheet ||
       flow.tunnel.kind != TunnelKind::free_air)
@@ -130,7 +130,7 @@ Room room_for_bodies(const Case& written, const FlowSettings& flow, double d) {
     width = std::max(width, size.width);
   }
   Room room;
-  room.domain = std::max(0.0, front + 2 * width - d * sheet_skirt);
+  room.domain = std::max(0.0, front + 4 * width - d * sheet_skirt);
   room.core = std::max(0.0, front + 0.5 * width - 0.25 * d * sheet_core.z);
   FlowSettings alone;
   alone.box_m = d * sheet_box, alone.cells = sheet_defaults.cells;
@@ -239,7 +239,7 @@ void resolve_box(Follow& follow, Case& written, FlowSettings& flow) {
                    "flow.tunnel.nozzle_distance_m; the domain begins at the nozzle")
       : sheet && upstream < half
           ? follow("flow.canopy_position_m", keys.canopy_position_m, upstream,
-                   room.domain > 0 ? "two widths of the widest body upstream of the foremost body"
+                   room.domain > 0 ? "four widths of the widest body upstream of the foremost body"
                                    : fmt::format("{:g} inflated diameters of {:.3g} m", sheet_skirt, d))
           : follow("flow.canopy_position_m", keys.canopy_position_m, half, "half the length of the domain");
   resolve_core(follow, d, room, keys, flow);
