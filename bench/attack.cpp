@@ -152,7 +152,7 @@ int main(int argc, char** argv) {
   const double d0 = plate ? 1 : number(at + 3);
   const Body body =
       plate
-          ? Body{"square plate", square_plate(1, {}), {1e6, 0}, 1, 1}
+          ? Body{"square plate", square_plate(1, {}), impermeable, 1, 1}
           : centred({words[at], read_stl(words[at]), {number(at + 1), number(at + 2)}, pi / 4 * d0 * d0, d0});
   std::vector<double> angles;
   for (std::size_t n = first + 1; n < words.size(); ++n) angles.push_back(number(n));

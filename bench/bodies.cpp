@@ -295,9 +295,9 @@ void compare_places(int argc, char** argv) {
   if (argc > 4) {
     bodies = {{"canopy", sheet_body(read_stl(argv[3]), {std::atof(argv[4]), 0})}};
   } else {
-    bodies = {{"disk", sheet_body(disk(1, {0, 0, z}), {1e6, 0})},
-              {"hemispherical cup", sheet_body(hemispherical_cup(1, {0, 0, z}), {1e6, 0})},
-              {"rigid disk-gap-band of 0.65 m", sheet_body(rigid_disk_gap_band({0, 0, z}), {1e6, 0})}};
+    bodies = {{"disk", sheet_body(disk(1, {0, 0, z}), impermeable)},
+              {"hemispherical cup", sheet_body(hemispherical_cup(1, {0, 0, z}), impermeable)},
+              {"rigid disk-gap-band of 0.65 m", sheet_body(rigid_disk_gap_band({0, 0, z}), impermeable)}};
   }
   const FlowGrid like = about_body({{-4, -4, 0}, {8, 8, 10}, 0, 0, 0}, 1, across, z);
   const FlowGrid box{like.origin, like.size, like.nx, like.ny, like.nz};

@@ -89,6 +89,10 @@ void print_result(const SteadyResult& r, const Settings& resolved, const fs::pat
   row("projected diameter", fmt::format("{:.3f} m", r.size.projected_diameter));
   row("skirt diameter", fmt::format("{:.3f} m", r.size.skirt_diameter));
   print_stresses(r.max_line_tension, r.stress);
+  for (const BodyResult& body : r.bodies.value_or(std::vector<BodyResult>()))
+    row(("body " + body.name).c_str(),
+        fmt::format("drag {:.3g} N, coefficient {:.3f} on {:.4g} m2; side force {:.2g} N", body.drag,
+                    body.drag_coefficient, body.reference_area, body.side));
   print_payload(r);
   print_margins(r.margins);
   row("force balance",

@@ -1,11 +1,13 @@
 #include "ripstop/flow/stl.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cstring>
 #include <limits>
 #include <numbers>
 
+#include "../refusal.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 
@@ -84,6 +86,29 @@ TEST(Stl, CutTextAndNonFiniteSurfacesAreErrors) {
   EXPECT_THROW(write_stl(folder.path / "b.stl", {{{0, 0, nan}, {1, 0, 0}, {0, 1, 0}}}), Error);
   EXPECT_THROW(write_stl(folder.path / "b.stl", {{{0, 0, 1e39}, {1, 0, 0}, {0, 1, 0}}}), Error);
   EXPECT_FALSE(std::filesystem::exists(folder.path / "b.stl"));
+}
+
+TEST(Stl, ATextFileHasTheSameTrianglesAsABinaryOne) {
+  const TemporaryFolder folder("stl-text");
+  const std::vector<Triangle> surface = {{{0, 0, 0.5}, {0, 3, 0}, {0, 0, 4}},
+                                         {{1, 1, 1}, {1, 2, 1}, {2, 2, 2}}};
+  std::string text = "solid made by hand\r\n";
+  for (const Triangle& t : surface) {
+    text += " facet normal 0 0 0\r\n  outer loop\r\n";
+    for (const Vec3 p : {t.a, t.b, t.c}) text += fmt::format("   vertex {:e} {:g} {:g}\r\n", p.x, p.y, p.z);
+    text += "  endloop\r\n endfacet\r\n";
+  }
+  write_file(folder.path / "a.stl", text + "endsolid\r\n");
+  const std::vector<Triangle> read = read_stl(folder.path / "a.stl");
+  ASSERT_EQ(read.size(), 2u);
+  for (std::size_t n = 0; n < 2; ++n) {
+    EXPECT_EQ(read[n].a, surface[n].a);
+    EXPECT_EQ(read[n].b, surface[n].b);
+    EXPECT_EQ(read[n].c, surface[n].c);
+  }
+  write_file(folder.path / "b.stl", text.substr(0, text.find("endloop") - 40));
+  EXPECT_NE(refusal_of([&] { read_stl(folder.path / "b.stl"); }, ExitCode::bad_data).find("b.stl"),
+            std::string::npos);
 }
 
 TEST(Stl, ASurfaceWithoutTrianglesOrWithInfiniteOnesIsRefused) {

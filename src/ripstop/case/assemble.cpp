@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "ripstop/canopy/mirror.h"
+#include "ripstop/case/bodies.h"
 #include "ripstop/case/cost.h"
 #include "ripstop/core/error.h"
 #include "ripstop/flow/engines.h"
@@ -42,6 +45,7 @@ FlowProblem flow_problem(const Settings& resolved) {
   const ClothResistance& cloth = resolved.materials().canopy.resistance;
   if (flow.porosity_model == PorosityModel::sheet) {
     problem.bodies = {sheet_body({}, as_sheet(cloth))};
+    for (FlowBody& body : rigid_bodies(resolved).bodies) problem.bodies.push_back(std::move(body));
   } else {
     const PorousCellLaw cells = as_cells(cloth);
     problem.bodies = {porous_body({{}, cells.darcy, cells.forchheimer})};
@@ -66,6 +70,7 @@ std::string why_full_box(const Settings& resolved, const SteadyProblem& problem)
   if (!engine_of(flow.engine).can.quarters)
     return fmt::format("the flow engine \"{}\" has no planes of symmetry", flow.engine);
   if (flow.unsteady) return "the flow is unsteady";
+  if (!resolved.written().bodies.empty()) return "there are rigid bodies in the flow";
   // Rounding decides whether cloth touches a cell, and the published values are those of the full box.
   if (flow.porosity_model == PorosityModel::paper && flow.symmetry == FlowSymmetry::automatic)
     return "the \"paper\" model is compared with the full domain of its source";

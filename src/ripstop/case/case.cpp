@@ -53,6 +53,8 @@ void describe(Fields& fields, Case& given) {
              "model `paper`; the other is that of `sheet`. The inflated diameter d is 0.7 nominal diameters, "
              "or more if the undeformed start shape needs more.")
       .required();
+  fields.named_tables("body", given.bodies,
+                      "Rigid bodies upstream of the canopy, such as the rocket or the capsule: [body.NAME].");
   fields.table("coupling", given.coupling, "Steady coupling of cloth and flow.");
   fields.table("inflation", given.inflation, "The opening of the folded canopy.");
   fields.table("deployment", given.deployment,

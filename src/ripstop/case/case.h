@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ripstop/canopy/margins.h"
+#include "ripstop/case/bodies.h"
 #include "ripstop/core/toml/problem.h"
 #include "ripstop/core/toml/set.h"
 #include "ripstop/core/vec3.h"
@@ -142,6 +143,7 @@ struct Case {
   std::map<std::string, Material>
       materials;  // by name; other materials that the parachute names are those of the library
   FlowKeys flow;
+  std::map<std::string, BodyKeys> bodies;  // by name
   CouplingKeys coupling;
   InflationSettings inflation;
   std::optional<DeploymentKeys> deployment;

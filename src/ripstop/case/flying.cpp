@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "ripstop/case/assemble.h"
+#include "ripstop/case/bodies.h"
 #include "ripstop/case/cost.h"
 #include "ripstop/case/opening.h"
 #include "ripstop/case/payload.h"
@@ -144,6 +145,7 @@ FlightProblem problem_at(const Settings& flight, double rate, int threads) {
         *flight.payload().mass_kg, rate, dynamic, weight));
   FlightProblem problem;
   problem.mesh = parachute_mesh(flight);
+  require_canopy_alone(flight, "a flight");
   problem.air = {flow_problem(flight), flight.flight().courant};
   problem.settings = flight.flight();
   problem.cloth = flight.inflation();

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "ripstop/case/assemble.h"
+#include "ripstop/case/bodies.h"
 #include "ripstop/case/cost.h"
 #include "ripstop/case/deployment.h"
 #include "ripstop/core/error.h"
@@ -103,6 +104,7 @@ InflationProblem opening_problem(const Settings& opening, const LoadSource& sour
   if (opening.inflation().air == AirModel::coupled) {
     const Cost cost = cost_of(opening);
     require_memory(cost.memory, fmt::format("a coupled inflation with {:.3g} cells", cost.cells));
+    require_canopy_alone(opening, "an opening");
     problem.air = AirProblem{flow_problem(opening), opening.inflation().courant};
     if (opening.inflation().mass == InflationSettings::Mass::payload)
       problem.air->payload =

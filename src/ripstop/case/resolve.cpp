@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "ripstop/case/bodies.h"
 #include "ripstop/case/tape.h"
 #include "ripstop/core/words.h"
 #include "ripstop/flight/atmosphere.h"
@@ -110,6 +111,35 @@ void resolve_tunnel(Follow& follow, FlowKeys& keys, TunnelSettings& tunnel) {
   }
 }
 
+/// By which the default domain and its core begin farther upstream because of the bodies, and the cells that the core
+/// gains along the stream.
+struct Room {
+  double domain = 0, core = 0;  // [m]
+  int cells = 0;
+};
+
+/// Half a width of the widest body upstream of the foremost one in the core, and 4 in the domain.
+Room room_for_bodies(const Case& written, const FlowSettings& flow, double d) {
+  if (written.bodies.empty() || flow.porosity_model != PorosityModel::sheet ||
+      flow.tunnel.kind != TunnelKind::free_air)
+    return {};
+  double front = 0, width = 0;  // from the skirt [m]
+  for (const auto& [name, body] : written.bodies) {
+    const BodySize size = size_of(body);
+    front = std::max(front, body.trailing_distance_m.value_or(0) + size.length);
+    width = std::max(width, size.width);
+  }
+  Room room;
+  room.domain = std::max(0.0, front + 4 * width - d * sheet_skirt);
+  room.core = std::max(0.0, front + 0.5 * width - 0.25 * d * sheet_core.z);
+  FlowSettings alone;
+  alone.box_m = d * sheet_box, alone.cells = sheet_defaults.cells;
+  alone.core.size_m = d * sheet_core, alone.core.growth = sheet_defaults.growth;
+  alone.core.start_m = d * (sheet_skirt - 0.25 * sheet_core.z);
+  room.cells = static_cast<int>(std::ceil(room.core / flow_grid(alone).spacing().z));
+  return room;
+}
+
 struct BoxDefault {
   Vec3 size;
   std::string from;
@@ -140,7 +170,7 @@ BoxDefault default_box(const FlowSettings& flow, const TunnelKeys& given, double
                                                            jet_box_behind, sheet_box.z - sheet_skirt))};
 }
 
-void resolve_core(Follow& follow, double d, FlowKeys& keys, FlowSettings& flow) {
+void resolve_core(Follow& follow, double d, const Room& room, FlowKeys& keys, FlowSettings& flow) {
   const bool sheet = flow.porosity_model == PorosityModel::sheet;
   const std::string model = sheet ? "default of the sheet model" : "default of the paper model";
   const Vec3 box = flow.box_m;
@@ -158,13 +188,19 @@ void resolve_core(Follow& follow, double d, FlowKeys& keys, FlowSettings& flow) 
     core = {};
     from = sheet ? "a side of the domain is less than twice as long as the core of this canopy" : model;
   }
+  const double quarter = 0.25 * (keys.core.size_m ? keys.core.size_m->z : core.z);
+  if (core.z > 0 && room.core > 0) {
+    core.z += room.core;
+    from += fmt::format("; longer by {:.3g} m for the bodies", room.core);
+  }
   flow.core.size_m = follow("flow.core.size_m", keys.core.size_m, core, from);
   const Vec3 size = flow.core.size_m;
   if (size.z > 0)
     flow.core.start_m =
         follow("flow.core.start_m", keys.core.start_m,
-               std::max(0.0, std::min(flow.canopy_position_m - 0.25 * size.z, flow.box_m.z - size.z)),
-               "a quarter of the core upstream of the skirt");
+               std::max(0.0, std::min(flow.canopy_position_m - quarter - room.core, flow.box_m.z - size.z)),
+               room.core > 0 ? "half a width upstream of the foremost body"
+                             : "a quarter of the core upstream of the skirt");
   flow.core.growth =
       follow("flow.core.growth", keys.core.growth, (sheet ? sheet_defaults : paper_defaults).growth, model);
   const bool moves = sheet && keys.unsteady && size.x > 0 && size.y > 0;
@@ -173,25 +209,40 @@ void resolve_core(Follow& follow, double d, FlowKeys& keys, FlowSettings& flow) 
              moves ? "default of unsteady flow" : "default of steady flow and of uniform cells");
 }
 
-void resolve_box(Follow& follow, const Design& parachute, FlowKeys& keys, FlowSettings& flow) {
+void resolve_box(Follow& follow, Case& written, FlowSettings& flow) {
+  const Design& parachute = written.parachute;
+  FlowKeys& keys = written.flow;
   const bool sheet = flow.porosity_model == PorosityModel::sheet;
   const bool jet = flow.tunnel.kind == TunnelKind::open_jet;
   const std::string model = sheet ? "default of the sheet model" : "default of the paper model";
   const double d = inflated_diameter(parachute);
-  const BoxDefault box = default_box(flow, keys.tunnel, d);
+  for (auto& [name, body] : written.bodies)
+    follow("body." + name + ".trailing_distance_m", body.trailing_distance_m,
+           usual_trailing_distance(parachute),
+           "from the end of the riser to the skirt of the inflated canopy, about");
+  const Room room = room_for_bodies(written, flow, d);
+  BoxDefault box = default_box(flow, keys.tunnel, d);
+  if (room.domain > 0) {
+    box.size.z += room.domain;
+    box.from += fmt::format("; longer by {:.3g} m for the bodies", room.domain);
+  }
   flow.box_m = follow("flow.box_m", keys.box_m, box.size, box.from);
-  flow.cells = follow("flow.cells", keys.cells,
-                      sheet && jet ? jet_cells : (sheet ? sheet_defaults : paper_defaults).cells,
-                      sheet && jet ? "default of the sheet model in the wide domain of a jet" : model);
-  const double half = flow.box_m.z / 2, upstream = d * sheet_skirt;
+  std::array<int, 3> cells = sheet && jet ? jet_cells : (sheet ? sheet_defaults : paper_defaults).cells;
+  cells[2] += room.cells;
+  flow.cells = follow("flow.cells", keys.cells, cells,
+                      sheet && jet      ? "default of the sheet model in the wide domain of a jet"
+                      : room.cells == 0 ? model
+                                        : fmt::format("{}, and {} for the bodies", model, room.cells));
+  const double half = (flow.box_m.z + room.domain) / 2, upstream = d * sheet_skirt + room.domain;
   flow.canopy_position_m =
       jet ? follow("flow.canopy_position_m", keys.canopy_position_m, flow.tunnel.nozzle_distance_m,
                    "flow.tunnel.nozzle_distance_m; the domain begins at the nozzle")
       : sheet && upstream < half
           ? follow("flow.canopy_position_m", keys.canopy_position_m, upstream,
-                   fmt::format("{:g} inflated diameters of {:.3g} m", sheet_skirt, d))
+                   room.domain > 0 ? "four widths of the widest body upstream of the foremost body"
+                                   : fmt::format("{:g} inflated diameters of {:.3g} m", sheet_skirt, d))
           : follow("flow.canopy_position_m", keys.canopy_position_m, half, "half the length of the domain");
-  resolve_core(follow, d, keys, flow);
+  resolve_core(follow, d, room, keys, flow);
 }
 
 /// Abilities of the engine; an unknown engine, which check_engine() reports, has all of them.
@@ -275,7 +326,7 @@ SettingsValues settings_values(const Case& given) {
   flow.porosity_model = follow("flow.porosity_model", written.flow.porosity_model, model_of(cloth.resistance),
                                fmt::format("model of the permeability of materials.{}", cloth.name));
   resolve_tunnel(follow, written.flow, flow.tunnel);
-  resolve_box(follow, parachute, written.flow, flow);
+  resolve_box(follow, written, flow);
   resolve_numerics(follow, written, values);
   follow("inflation.line_segment_m", written.inflation.line_segment_m, parachute.mesh.line_segment_m,
          "parachute.mesh.line_segment_m");

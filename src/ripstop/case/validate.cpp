@@ -442,6 +442,7 @@ void check_settings(Case given, Findings& findings) {
     check_box(given, flow, findings);
     if (findings.sound({"flow.cells"})) check_cells(given, flow, findings);
   }
+  check_bodies(given, flow.porosity_model, findings);
   check_average(flow, findings);
   check_opening_air(given, flow, findings);
   check_watch(given, flow, findings);

@@ -1,6 +1,8 @@
-// Bodies of simple shape as surfaces: those with a known drag, and a rigid inflated disk-gap-band.
+// Bodies of simple shape as surfaces: those with a known drag, closed ones in front of a canopy, and a rigid inflated
+// disk-gap-band.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "ripstop/flow/flow.h"
@@ -21,6 +23,22 @@ std::vector<Triangle> disk(double diameter, Vec3 centre);
 std::vector<Triangle> square_plate(double side, Vec3 centre);
 /// Half a spherical shell whose mouth, at centre.z, faces the stream.
 std::vector<Triangle> hemispherical_cup(double diameter, Vec3 centre);
+// Closed surfaces, normals outward. The axis is z, the nose points against the stream, and the aft end lies at centre.z.
+
+std::vector<Triangle> sphere(double diameter, Vec3 centre);
+/// With a nose in the form of half an ellipsoid, `nose_length` long, as part of the length (0: flat); its base is flat.
+std::vector<Triangle> nosed_cylinder(double diameter, double length, double nose_length, Vec3 centre);
+/// Of re-entry: a spherical front of radius `nose_radius` with its full diameter at the rear of the front, and a cone to
+/// a flat base of diameter `base`. The front is part of the length.
+std::vector<Triangle> capsule(double diameter, double length, double nose_radius, double base, Vec3 centre);
+std::vector<Triangle> box(Vec3 size, Vec3 centre);
+
+/// Throws Error(bad_data) for a surface that is not closed, or whose normals point inward: the number of edges with
+/// one triangle only, and one of their places. `name` is for the message.
+void check_closed(const std::vector<Triangle>& surface, const std::string& name);
+/// Of a closed surface, across the z axis; hollows seen from the front count several times [m2].
+double frontal_area(const std::vector<Triangle>& surface);
+
 /// The surface turned about the origin such that its z axis lies along the unit vector `axis`, by the shortest way.
 std::vector<Triangle> turned(std::vector<Triangle> surface, Vec3 axis);
 /// A rigid disk-gap-band about as large as Stratos IV when inflated (band 0.65 m in diameter and 0.28 m high, gap

@@ -91,6 +91,16 @@ bool FlowProblem::has_sheets() const {
   return std::any_of(bodies.begin(), bodies.end(), [](const FlowBody& body) { return body.is_sheet(); });
 }
 
+Vec3 canopy_force(const FlowField& field) {
+  return field.porous_force - force_on_others(field);
+}
+
+Vec3 force_on_others(const FlowField& field) {
+  Vec3 sum;
+  for (std::size_t n = 1; n < field.bodies.size(); ++n) sum += field.bodies[n].force;
+  return sum;
+}
+
 std::vector<SheetLoad> loads_on(std::size_t body, std::vector<SheetLoad> loads) {
   std::erase_if(loads, [body](const SheetLoad& load) { return static_cast<std::size_t>(load.body) != body; });
   return loads;

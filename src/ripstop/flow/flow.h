@@ -65,6 +65,9 @@ struct SheetMotion {
   std::vector<double> pressure;  // inside over outside [Pa]; empty: none
 };
 
+/// Of a rigid body without holes, practically: at 100 Pa the air passes at 0.1 mm/s.
+inline constexpr PressureDrop impermeable{1e6, 0};
+
 /// A body in the flow: a canopy, a screen, a payload. Its cloth resists either as a surface without thickness, across
 /// which the pressure drops by a v + b v |v| with v the air's velocity along its normal, relative to the cloth ([NFM]
 /// Eq. 15; `sheet` model, method section 4), or as porous cells.
@@ -272,6 +275,10 @@ class FlowEngine {
   /// engine must outlive its flows.
   virtual std::unique_ptr<Flow> start(const FlowProblem& problem) = 0;
 };
+
+/// On the first body, the canopy, and on all others together.
+Vec3 canopy_force(const FlowField& field);
+Vec3 force_on_others(const FlowField& field);
 
 /// Those of one body.
 std::vector<SheetLoad> loads_on(std::size_t body, std::vector<SheetLoad> loads);

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <locale>
+#include <sstream>
 #include <string>
 
 #include "ripstop/core/error.h"
@@ -58,15 +60,41 @@ void write_stl(const std::filesystem::path& path, const std::vector<Triangle>& s
   write_file(path, bytes);
 }
 
+namespace {
+
+/// Of a text STL: its corners in the order of the file; all other words are skipped.
+std::vector<Triangle> read_text(const std::string& bytes, const std::filesystem::path& path) {
+  std::vector<Vec3> corners;
+  std::istringstream text(bytes);
+  text.imbue(std::locale::classic());
+  for (std::string word; text >> word;) {
+    if (word != "vertex") continue;
+    Vec3 p;
+    if (!(text >> p.x >> p.y >> p.z))
+      throw Error(ExitCode::bad_data, fmt::format("{}: corner {} of the text STL is not three numbers",
+                                                  path.string(), corners.size() + 1));
+    corners.push_back(p);
+  }
+  if (corners.empty() || corners.size() % 3 != 0)
+    throw Error(ExitCode::bad_data,
+                fmt::format("{} is a text STL with {} corners, three are needed for each triangle",
+                            path.string(), corners.size()));
+  std::vector<Triangle> surface;
+  for (std::size_t n = 0; n < corners.size(); n += 3)
+    surface.push_back({corners[n], corners[n + 1], corners[n + 2]});
+  return surface;
+}
+
+}  // namespace
+
 std::vector<Triangle> read_stl(const std::filesystem::path& path) {
   const std::string bytes = read_file(path);
   std::uint32_t count = 0;
   const std::size_t begin = header_size + sizeof(count);
   if (bytes.size() >= begin) std::memcpy(&count, bytes.data() + header_size, sizeof(count));
   if (bytes.size() < begin || bytes.size() != begin + count * triangle_size) {
-    const char* reason = bytes.starts_with("solid") ? "is a text STL; convert it to a binary one"
-                                                    : "is not a complete binary STL";
-    throw Error(ExitCode::bad_data, fmt::format("{} {}", path.string(), reason));
+    if (bytes.starts_with("solid")) return read_text(bytes, path);
+    throw Error(ExitCode::bad_data, fmt::format("{} is not a complete binary STL", path.string()));
   }
   if (count == 0) throw Error(ExitCode::bad_data, fmt::format("{} contains no triangle", path.string()));
   std::vector<Triangle> surface(count);

@@ -12,8 +12,9 @@ namespace ripstop {
 /// Error(bad_data) for a corner that is not finite or beyond single precision, Error(io).
 void write_stl(const std::filesystem::path& path, const std::vector<Triangle>& surface);
 
-/// The triangles of a binary STL; its normals are not read, since the corners determine them. Throws
-/// Error(bad_data) for a text STL or a length that does not match the count, Error(io).
+/// The triangles of a binary or text STL; its normals are not read, since the corners determine them. Throws
+/// Error(bad_data) for a length that does not match the count, a corner that is not finite, an incomplete triangle,
+/// Error(io).
 std::vector<Triangle> read_stl(const std::filesystem::path& path);
 
 }  // namespace ripstop

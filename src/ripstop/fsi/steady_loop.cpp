@@ -95,6 +95,11 @@ FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) 
   flow_->place(0, canopy.triangles);
   FlowField field = advance_flow(state, in_full, now.iteration, report);
   enter_flow(now, state, field, problem_.mesh, shape);
+  state.body_forces.clear(), state.body_moments.clear();
+  for (std::size_t n = 1; n < field.bodies.size(); ++n) {
+    state.body_forces.push_back(field.bodies[n].force);
+    state.body_moments.push_back(field.bodies[n].moment);
+  }
   now.cut_cells = static_cast<int>(canopy.cut_cells.size());
   now.printed_tolerance = printed_tolerance(now.flow_residual);
 

@@ -48,8 +48,9 @@ struct SteadyState {
   SidePressures sides;              // of the last flow [Pa]
   std::vector<double> applied;      // difference that produced `shape` [Pa]
   Accelerator accelerator;
-  bool in_time = false;  // from the next iteration on, the flow is averaged in time
-  WindowAverage window;  // the last one
+  bool in_time = false;                         // from the next iteration on, the flow is averaged in time
+  WindowAverage window;                         // the last one
+  std::vector<Vec3> body_forces, body_moments;  // on the bodies other than the canopy [N], [N m]
   bool converged = false;
   double speed = 0;  // stream speed of this state, where a run searches for it; 0: that of the case [m/s]
   int speeds = 0;    // tried so far
@@ -65,6 +66,8 @@ void each_member(T& s, Visit&& visit) {
   visit("inside", s.sides.inside);
   visit("outside", s.sides.outside);
   visit("applied", s.applied);
+  visit("body_forces", s.body_forces);
+  visit("body_moments", s.body_moments);
   visit("update", s.accelerator.update);
   visit("relaxation", s.accelerator.relaxation);
   visit("memory", s.accelerator.memory);

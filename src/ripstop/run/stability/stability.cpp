@@ -9,6 +9,7 @@
 
 #include "ripstop/canopy/shape.h"
 #include "ripstop/case/assemble.h"
+#include "ripstop/case/bodies.h"
 #include "ripstop/case/resolve.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/quantity.h"
@@ -165,6 +166,7 @@ CanopyMesh restrained_mesh(const Settings& resolved, const SteadyState& state) {
 }
 
 FlowProblem stability_flow(const Settings& at_angle, const RigidCanopy& canopy, int across, double widest) {
+  require_canopy_alone(at_angle, "stability");
   FlowProblem problem = flow_problem(at_angle);
   const Extent e = extent_of(canopy.surface);
   const Vec3 size = e.upper() - e.lower(), middle = 0.5 * (e.lower() + e.upper());

@@ -10,6 +10,7 @@
 
 #include "ripstop/canopy/mirror.h"
 #include "ripstop/case/assemble.h"
+#include "ripstop/case/bodies.h"
 #include "ripstop/case/cost.h"
 #include "ripstop/case/resolve.h"
 #include "ripstop/run/engine.h"
@@ -58,6 +59,17 @@ UnsteadyResult unsteady_result(const WindowAverage& watched, const Settings& res
   result.strouhal = watched.swing * inflated_diameter(resolved.parachute()) / resolved.flow().speed_m_s;
   return result;
 }
+
+std::vector<BodyResult> body_results(const SteadyState& state, const Settings& resolved) {
+  const RigidBodies rigid = rigid_bodies(resolved);
+  std::vector<BodyResult> results;
+  for (std::size_t n = 0; n < state.body_forces.size(); ++n) {
+    const Vec3 force = state.body_forces[n];
+    results.push_back({rigid.bodies.at(n).name, force.z, std::hypot(force.x, force.y), state.body_moments[n],
+                       rigid.areas.at(n), force.z / (dynamic_pressure(resolved) * rigid.areas.at(n))});
+  }
+  return results;
+}
 }  // namespace
 
 SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state, const Settings& resolved) {
@@ -89,6 +101,7 @@ SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state,
   r.domain = solved_domain(solver, state);
   if (state.in_time) r.unsteady = unsteady_result(state.window, resolved);
   r.measured = resolved.measured_row();
+  if (!state.body_forces.empty()) r.bodies = body_results(state, resolved);
   take_quality(r, resolved);
   return r;
 }

@@ -80,6 +80,22 @@ void each_member(T& d, Visit&& visit) {
   visit("reason", d.because);
   visit("canopy_asymmetry_m", d.asymmetry);
 }
+/// Loads on a rigid body of the case.
+struct BodyResult {
+  std::string name;
+  double drag = 0, side = 0;                        // along the stream and across it [N]
+  Vec3 moment;                                      // about the middle of its aft end [N m]
+  double reference_area = 0, drag_coefficient = 0;  // [m2], -
+};
+template <Of<BodyResult> T, class Visit>
+void each_member(T& b, Visit&& visit) {
+  visit("name", b.name);
+  visit("drag_n", b.drag);
+  visit("side_force_n", b.side);
+  visit("moment_n_m", b.moment);
+  visit("reference_area_m2", b.reference_area);
+  visit("drag_coefficient", b.drag_coefficient);
+}
 /// Of the drag to the weight, relative.
 inline constexpr double payload_tolerance = 1e-3;
 
@@ -103,6 +119,7 @@ struct SteadyResult {
   std::optional<SolvedDomain> domain;  // absent in results of earlier versions
   std::optional<UnsteadyResult> unsteady;
   std::optional<HeldPayload> payload;                // of a case with one
+  std::optional<std::vector<BodyResult>> bodies;     // of a case with rigid bodies
   std::optional<Margins> margins;                    // absent in results of earlier versions
   std::optional<Measured> measured;                  // the case's row for this speed
   std::optional<std::vector<std::string>> warnings;  // absent likewise, as is `usable`
@@ -142,6 +159,7 @@ void each_member(T& r, Visit&& visit) {
   visit("flow_domain", r.domain);
   visit("unsteady", r.unsteady);
   visit("payload", r.payload);
+  visit("bodies", r.bodies);
   visit("margins", r.margins);
   visit("measured", r.measured);
   visit("warnings", r.warnings);
