@@ -55,6 +55,9 @@ def copy_pages(pages):
                 inside = file.resolve().relative_to(ROOT)
                 (pages / inside).parent.mkdir(parents=True, exist_ok=True)
                 shutil.copy(file, pages / inside)
+        title = next((line[2:] for line in text.splitlines() if line.startswith("# ")), "")
+        if "`" in title:  # the navigation would show the marks of code
+            text = f'---\ntitle: "{title.replace("`", "")}"\n---\n\n{text}'
         target.write_text(text)
 
 

@@ -93,6 +93,12 @@ class Site(unittest.TestCase):
                 left = self.browser.evaluate("[...document.querySelectorAll('article p, article li, article td')].map(e => e.innerText).join('\\n')")
                 self.assertEqual(re.findall(r"\$\$|\\frac|\\rho", left), [])
 
+    def test_navigation_shows_no_marks_of_code(self):
+        self.open("docs/guide/fly.html")
+        titles = self.browser.evaluate("[...document.querySelectorAll('.md-nav__link')].map(e => e.textContent.trim())")
+        self.assertIn("Free flight: ripstop fly", titles)
+        self.assertEqual([title for title in titles if "`" in title], [])
+
     def test_search_finds_a_page_without_a_server(self):
         self.open("index.html")
         self.browser.evaluate("document.querySelector('[data-md-toggle=search]').checked = true, document.querySelector('[data-md-component=search-query]').focus()")

@@ -4,8 +4,8 @@
     make test-tutorials        (or: follow.py --ripstop build-check/bin/ripstop --python build-check/python 1 3)
 
 Each tutorial is a page of docs/tutorials. Its files are written and its commands run in the order of the page. Every line of output on
-the page, and every number in its prose with three digits or more and a decimal point, must be in the output of its commands or in
-a file of the example. Writes docs/tables/tutorials.md: processor time and wall time. Exit code 1 where a page and its outputs differ.
+the page must be in the output of its commands or in a file of the example. The same applies to every number in its prose with three
+digits or more and a decimal point. Writes docs/tables/tutorials.md: processor time and wall time. Exit code 1 where a page and its outputs differ.
 """
 
 import argparse
