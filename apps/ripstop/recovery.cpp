@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 struct RecoveryArguments {
   fs::path main_case, drogue_case, out = "runs/recovery";
   Overrides overrides;
-  std::optional<double> mass;
+  std::optional<double> mass, apogee;
   RecoveryRequest request;
   bool json = false;
 };
@@ -79,6 +79,9 @@ int recovery(RecoveryArguments& options) {
     throw Error(ExitCode::usage,
                 "the descending mass is missing: give --mass KG, or [payload] mass_kg in the "
                 "case of the main parachute");
+  if (!options.apogee)
+    throw Error(ExitCode::usage, "the apogee is missing: give --apogee M, above the ground");
+  options.request.apogee = *options.apogee;
   options.request.mass = options.mass ? *options.mass : *main.payload().mass_kg;
   const RecoveryResult result = run_recovery(main, drogue, options.request);
   write_recovery(options.out, result);
@@ -94,8 +97,8 @@ void add_flight(CLI::App& command, RecoveryArguments& options) {
   RecoveryRequest& r = options.request;
   add_number(command, "--mass", options.mass, key_range("payload.mass_kg"),
              "Mass that descends, without the parachutes [kg] (default: payload.mass_kg of the main's case)");
-  add_number(command, "--apogee", r.apogee, above(0).up_to(highest_height), "Apogee above the ground [m]")
-      ->required();
+  add_number(command, "--apogee", options.apogee, above(0).up_to(highest_height),
+             "Apogee above the ground [m]");
   add_number(command, "--main-height", r.main_height, above(0).up_to(highest_height),
              "Height above the ground at which the main opens, with a drogue [m] (default: 300)");
   add_number(command, "--speed", r.speed, above(0).up_to(1000),

@@ -13,6 +13,10 @@ TEST(UsUnits, FollowEveryValueWithAUnit) {
             "75 J (55.3 ft lbf), 0.0254 m (1 in), 100 Pa (0.0145 psi)");
 }
 
+TEST(UsUnits, HaveNoExponentWhereTheValueHasNone) {
+  EXPECT_EQ(with_us_units("apogee 3048 m, 12 m3"), "apogee 3048 m (10000 ft), 12 m3 (732285 in3)");
+}
+
 TEST(UsUnits, ConvertBothEndsOfARangeAndAnUncertainty) {
   EXPECT_EQ(with_us_units("10 to 20 m/s"), "10 to 20 m/s (32.8 to 65.6 ft/s)");
   EXPECT_EQ(with_us_units("1.000 +- 0.010 m"), "1.000 +- 0.010 m (3.281 +- 0.0328 ft)");

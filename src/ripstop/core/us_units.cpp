@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <cstdlib>
+#include <string>
 #include <string_view>
 
 #include "ripstop/core/units.h"
@@ -71,8 +73,12 @@ const UsUnit* unit_at(std::string_view text) {
   return found == us_units.end() ? nullptr : &*found;
 }
 
+/// All digits before the point, so that no number gets an exponent that was printed without one.
 std::string converted(const Printed& number, const UsUnit& unit, bool in_inches) {
-  return fmt::format("{:.{}g}", number.value / (in_inches ? inch : unit.factor), std::max(3, number.digits));
+  const double value = number.value / (in_inches ? inch : unit.factor);
+  const int whole =
+      std::abs(value) < 1e9 ? static_cast<int>(std::to_string(std::llround(std::abs(value))).size()) : 1;
+  return fmt::format("{:.{}g}", value, std::max({3, number.digits, whole}));
 }
 
 }  // namespace
