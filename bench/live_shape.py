@@ -108,8 +108,9 @@ def main():
         return (f"| {name} | {len(rows)} | {statistics.median(first):.2f} | {percentile(first, 0.95):.2f} | {max(first):.2f} | {percentile(spent, 0.95):.2f} | {100 * sum(row[3] for row in rows) / len(rows):.0f} "
                 f"| {statistics.median(whole):.2f} | {percentile(whole, 0.95):.2f} | {sum(not row[4] for row in rows)} |")
 
-    print("<!-- Made by: python3 bench/live_shape.py build-check/bin/ripstop -->\n")
-    print(f"Ripstop, {platform.machine()}, {len(os.sched_getaffinity(0))} cores with a load of {os.getloadavg()[1]:.1f}, {time.strftime('%Y-%m-%d')}. {NODES} nodes of cloth. Times in s.\n")
+    print("# From a change of a design to its shape in Studio\n")
+    print(f"`python3 bench/live_shape.py build-check/bin/ripstop {wanted}`: {platform.machine()}, {len(os.sched_getaffinity(0))} cores, load average "
+          f"{os.getloadavg()[1]:.1f}, {time.strftime('%-d %B %Y')}. {NODES} nodes of cloth. Times in s.\n")
     print("| family | changes | first shape, median | 95 % | largest | its processor time, 95 % | in equilibrium at once, % | equilibrium, median | 95 % | none within 5 s |")
     print("|---|---|---|---|---|---|---|---|---|---|")
     for family in families:
