@@ -29,7 +29,7 @@ HELD = {"inflation.mass": "infinite"}
 # name: (subject, changed keys)
 ROWS = {
     "base": ("as stated", {}),
-    "radius-0.13": ("radius of the folded skirt 0.13 m", {"inflation.initial_radius_m": "0.13"}),
+    "radius-0.14": ("radius of the folded skirt 0.14 m", {"inflation.initial_radius_m": "0.14"}),
     "radius-0.25": ("radius of the folded skirt 0.25 m", {"inflation.initial_radius_m": "0.25"}),
     "folds-24": ("24 folds", {"inflation.folds": "24"}),
     "cloth-3": ("cloth of 3 CFM", {"parachute.canopy_material": "pia-c-44378-type-iv"}),
