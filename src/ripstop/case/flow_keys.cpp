@@ -300,9 +300,11 @@ void describe(Fields& fields, CouplingKeys& coupling) {
       "Convergence acceleration of the coupling iterations.");
   fields.number("cloth_tolerance", coupling.cloth_tolerance, above(0).up_to(0.1),
                 "Ratio of residual to applied force below which the cloth is in equilibrium.");
-  fields.toggle("coarse_start", coupling.coarse_start,
-                "First solve the coupling on cells twice as wide, and start from that shape, load and flow "
-                "(built-in engine, \"sheet\" model, 16 or more cells across the canopy, no open jet).");
+  fields.toggle(
+      "coarse_start", coupling.coarse_start,
+      "First solve the coupling on cells twice as wide, and start from that shape, load and flow. "
+      "Requires the built-in engine, the \"sheet\" model, 16 or more cells across the canopy, and no "
+      "open jet.");
   fields.toggle("linear", coupling.linear,
                 "Linear material model: only the stiffness coefficient K_1 of every material.");
   fields.integer("threads", coupling.threads, from(0).up_to(1024),
