@@ -170,6 +170,7 @@ void add_steady(py::module_& module) {
   add_class<WindowAverage>(module, "Watched", "State of the averaging window of an unsteady run.");
   add_class<UnsteadyResult>(module, "UnsteadyResult", "Averages of an unsteady wake and their uncertainty.");
   add_class<HeldPayload>(module, "HeldPayload", "Equilibrium of drag and weight in a run with a payload.");
+  add_class<BodyResult>(module, "BodyResult", "Loads on a rigid body of the case.");
   add_class<SolvedDomain>(module, "SolvedDomain",
                           "The part of the flow domain in which the flow was solved.");
   add_class<Margin>(module, "Margin",

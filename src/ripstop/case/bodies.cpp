@@ -8,6 +8,8 @@
 #include "ripstop/case/case.h"
 #include "ripstop/case/settings.h"
 #include "ripstop/core/error.h"
+#include "ripstop/core/toml/fields.h"
+#include "ripstop/core/toml/problem.h"
 #include "ripstop/flow/bodies.h"
 #include "ripstop/flow/extent.h"
 #include "ripstop/flow/stl.h"

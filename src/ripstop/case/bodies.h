@@ -6,13 +6,13 @@
 #include <variant>
 #include <vector>
 
-#include "ripstop/core/toml/fields.h"
-#include "ripstop/core/toml/problem.h"
 #include "ripstop/flow/flow.h"
 #include "ripstop/material/material.h"
 
 namespace ripstop {
 
+class Fields;
+class Findings;
 class Settings;
 struct Case;
 struct Design;
