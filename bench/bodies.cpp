@@ -42,8 +42,9 @@ struct Body {
 };
 
 struct Result {
-  double coefficient = 0, change = 0;  // the latter over the last 100 iterations, relative
-  double front = 0, back = 0;          // mean pressure coefficient, weighted with the area across the flow
+  double coefficient = 0,
+         change = 0;           // the latter: standard deviation over the last 100 iterations, relative
+  double front = 0, back = 0;  // mean pressure coefficient, weighted with the area across the flow
 };
 
 // Means over the faces across the stream that the body parts, of the cells before and behind them.
@@ -88,10 +89,9 @@ CartesianSettings second_order() {
 }
 
 Result result_of(const Body& body, const FlowProblem& problem, const FlowField& field) {
-  const FlowAverage& mean = field.average;
   Result result;
   result.coefficient = field.porous_force.z / (dynamic_pressure(problem) * body.area);
-  if (mean.iterations > 0) result.change = (mean.drag_high - mean.drag_low) / mean.drag;
+  if (field.average.iterations > 0) result.change = field.average.drag_deviation / field.porous_force.z;
   read_pressures(field, dynamic_pressure(problem), result);
   return result;
 }

@@ -1,4 +1,4 @@
-// Drag of closed bodies alone in the stream, in time and steady, beside published values.
+// Drag of closed bodies alone in the stream, in time and steady, compared with published values.
 //
 // bench_rigid [steady] CELLS [sphere|cube|cylinder|nosed]...   cells across the body
 #include <fmt/core.h>
@@ -33,7 +33,7 @@ struct Body {
 std::vector<Body> bodies() {
   constexpr double circle = 3.14159265358979 / 4;
   return {{"sphere", "sphere", sphere(1, {0, 0, 0.5}), circle, 0.47, 0.47},
-          {"cube", "cube, a face to the stream", box({1, 1, 1}, {0, 0, 0.5}), 1, 1.05, 1.05},
+          {"cube", "cube, a face to the stream", block({1, 1, 1}, {0, 0, 0.5}), 1, 1.05, 1.05},
           {"cylinder", "cylinder, 3 diameters long, flat front", nosed_cylinder(1, 3, 0, {0, 0, 1.5}), circle,
            0.81, 0.85},
           {"nosed", "cylinder, 3 diameters long, hemispherical nose", nosed_cylinder(1, 3, 0.5, {0, 0, 1.5}),

@@ -30,7 +30,7 @@ TEST(ClosedBodies, HaveTheVolumeAndFrontalAreaOfTheirShape) {
                 {nosed_cylinder(2, 3, 3, at), 2 * pi, pi, 3},
                 // Half a sphere of radius 1, then a cone of length 2 from radius 1 to 0.5.
                 {capsule(2, 3, 1, 1, at), 2 * pi / 3 + pi * 2 / 3 * (1 + 0.5 + 0.25), pi, 3},
-                {box({1, 2, 3}, at), 6, 2, 3}};
+                {block({1, 2, 3}, at), 6, 2, 3}};
   for (const auto& body : bodies) {
     EXPECT_NO_THROW(check_closed(body.surface, "body"));
     EXPECT_NEAR(volume(body.surface), body.volume, 1e-3 * body.volume);
@@ -45,7 +45,7 @@ TEST(ClosedBodies, WithAHoleOrTurnedInsideOutAreRefused) {
   const auto refusal = [](const std::vector<Triangle>& surface, const std::string& name) {
     return refusal_of([&] { check_closed(surface, name); }, ExitCode::bad_data);
   };
-  std::vector<Triangle> open = box({1, 1, 1}, {});
+  std::vector<Triangle> open = block({1, 1, 1}, {});
   open.pop_back();
   EXPECT_NE(refusal(open, "rocket").find("body \"rocket\": its surface is not closed: 3 of 18 edges"),
             std::string::npos);

@@ -120,7 +120,7 @@ def beyond(value, low, high):
 
 
 def agreement(result):
-    interval, value = result["known_drag_coefficient"], result["descent_drag_coefficient"]
+    interval, value = result.get("known_drag_coefficient"), result["descent_drag_coefficient"]
     if not interval or value is None:
         return ""
     off = beyond(value, *interval)
@@ -152,7 +152,7 @@ def families_table(results):
         if kind and angle:
             kind += ", as known" if kind == kind_known(angle) else f", known: {kind_known(angle)}"
         rows.append([family, "100" if name == family else "3", f"{r['duration_s']:.0f}",
-                     number(r, "rate_of_descent_m_s", "rate_of_descent_standard_error_m_s", 2), f"{r['axial_drag_coefficient']:.3f}", coefficient(r), printed(r["known_drag_coefficient"], ".2f"), agreement(r),
+                     number(r, "rate_of_descent_m_s", "rate_of_descent_standard_error_m_s", 2), f"{r['axial_drag_coefficient']:.3f}", coefficient(r), printed(r.get("known_drag_coefficient"), ".2f"), agreement(r),
                      number(r, "glide_ratio", "glide_ratio_standard_error", 2), oscillation(r), printed(angle, "g"), kind,
                      "" if r["largest_oscillation_deg"] is None else f"{r['largest_oscillation_deg']:.0f}",
                      number(r, "oscillation_period_s", "oscillation_period_standard_error_s", 1), str(r["half_swings"])])
@@ -164,7 +164,7 @@ def count_line(results):
     """How many flights agree, of those for which a value is known."""
     flown = list(families_flown(results))
     with_range = [r for _, _, r in flown if agreement(r)]
-    close = sum(abs(beyond(r["descent_drag_coefficient"], *r["known_drag_coefficient"])) <= 0.05 for r in with_range)
+    close = sum(abs(beyond(r["descent_drag_coefficient"], *r.get("known_drag_coefficient"))) <= 0.05 for r in with_range)
     angles = [(r["mean_oscillation_deg"], KNACKE_ANGLE[family]) for family, _, r in flown
               if family in KNACKE_ANGLE and r["mean_oscillation_deg"] is not None]
     right = sum(kind_of(mean) == kind_known(angle) for mean, angle in angles)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Filling of one canopy: what changes distance and load of its opening.
+"""Filling of one canopy: parameters that change distance and load of its opening.
 
     make validate-filling             (or: filling.py --ripstop build/bin/ripstop --runs runs/filling)
 

@@ -29,7 +29,7 @@ std::vector<Triangle> surface(const CapsuleKeys& keys, const Settings&) {
   return capsule(keys.diameter_m, keys.length_m, keys.nose_radius_m, keys.base_diameter_m, {});
 }
 std::vector<Triangle> surface(const BoxKeys& keys, const Settings&) {
-  return box(keys.size_m, {});
+  return block(keys.size_m, {});
 }
 std::vector<Triangle> surface(const StlKeys& keys, const Settings& resolved) {
   std::vector<Triangle> triangles = read_stl(resolved.file().parent_path() / keys.file);

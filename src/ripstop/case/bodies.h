@@ -54,7 +54,7 @@ void describe(Fields& fields, BodyKeys& keys);
 /// Checks the proportions of the bodies, and that the cloth can be in one flow with them.
 void check_bodies(const Case& given, PorosityModel model, Findings& findings);
 
-/// Along and across the stream [m]; 0 for a file, whose surface a case does not know.
+/// Along and across the stream [m]; 0 for a file, which is read only with the flow.
 struct BodySize {
   double length = 0, width = 0;
 };

@@ -24,7 +24,7 @@ void append(std::vector<Triangle>& to, const std::vector<Triangle>& more) {
 
 constexpr int quarter = segments / 4;
 
-/// A nose in the form of half an ellipsoid of this radius and length, and what `rest` adds from there to the aft end at
+/// A nose in the form of half an ellipsoid of this radius and length, and the points that `rest` adds from there to the aft end at
 /// z = 0.
 template <class Rest>
 std::vector<Triangle> nosed_half(double radius, double nose_length, double length, Vec3 centre, Rest&& rest) {
@@ -107,7 +107,7 @@ std::vector<Triangle> capsule(double diameter, double length, double nose_radius
   return revolve(outline, centre, segments);
 }
 
-std::vector<Triangle> box(Vec3 size, Vec3 centre) {
+std::vector<Triangle> block(Vec3 size, Vec3 centre) {
   const auto corner = [&](int n) {
     return centre + Vec3{(n & 1 ? 0.5 : -0.5) * size.x, (n & 2 ? 0.5 : -0.5) * size.y, n & 4 ? 0 : -size.z};
   };

@@ -31,7 +31,7 @@ std::vector<Triangle> nosed_cylinder(double diameter, double length, double nose
 /// Of re-entry: a spherical front of radius `nose_radius` with its full diameter at the rear of the front, and a cone to
 /// a flat base of diameter `base`. The front is part of the length.
 std::vector<Triangle> capsule(double diameter, double length, double nose_radius, double base, Vec3 centre);
-std::vector<Triangle> box(Vec3 size, Vec3 centre);
+std::vector<Triangle> block(Vec3 size, Vec3 centre);
 
 /// Throws Error(bad_data) for a surface that is not closed, or whose normals point inward: the number of edges with
 /// one triangle only, and one of their places. `name` is for the message.

@@ -23,6 +23,8 @@ bool mirrored(const std::vector<double>& edges) {
 
 std::string why_not_mirrored(const FlowProblem& problem) {
   if (!problem.air.along_z()) return "the stream is not along the axis";
+  // With these sides the velocity in a quarter differed locally by 1 %, for a reason that is not known.
+  if (problem.sides == Sides::far_field) return "the sides are the far field";
   if (!problem.body_force.empty()) return "forces act on the air";
   for (const int axis : {0, 1}) {
     const int cells = problem.grid.count(axis);

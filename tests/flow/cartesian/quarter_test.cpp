@@ -160,12 +160,14 @@ std::string refusal(const FlowProblem& problem) {
 }
 
 TEST(Quarter, IsRefusedWithItsReasonWhereTheFlowIsNotItsOwnMirrorImage) {
-  FlowProblem problem = with_cup(Sides::far_field);
+  FlowProblem problem = with_cup(Sides::entraining);
   EXPECT_EQ(why_not_mirrored(problem), "");
   problem.quarter = true;
-  FlowProblem odd = problem, shifted = problem, oblique = problem, pulled = problem, few = problem;
+  FlowProblem odd = problem, shifted = problem, oblique = problem, pulled = problem, few = problem,
+              far = problem;
   odd.grid.ny = 21;
   shifted.grid.origin.x += 0.01;
+  far.sides = oblique.sides = Sides::far_field;
   oblique.air.velocity = {1, 0, 10};
   pulled.body_force.resize(static_cast<std::size_t>(problem.grid.cells()));
   few.grid = {{-2, -2, 0}, {4, 4, 6}, 6, 8, 24};
@@ -173,6 +175,7 @@ TEST(Quarter, IsRefusedWithItsReasonWhereTheFlowIsNotItsOwnMirrorImage) {
   EXPECT_NE(refusal(shifted).find("not symmetric about the canopy axis"), std::string::npos);
   EXPECT_NE(refusal(oblique).find("the stream is not along the axis"), std::string::npos);
   EXPECT_NE(refusal(pulled).find("forces act on the air"), std::string::npos);
+  EXPECT_NE(refusal(far).find("the far field"), std::string::npos);
   EXPECT_NE(refusal(few).find("6 cells"), std::string::npos);
 }
 
