@@ -71,7 +71,7 @@ class Examples(unittest.TestCase):
         area = table["drag_area_m2"][-1]
         weight = 0.5 * table["density_kg_m3"][-1] * table["speed_m_s"][-1] ** 2 * area
         self.assertAlmostEqual(table["force_n"][-1] / weight, 1, delta=1e-3)
-        arguments = next(value for value in names.values() if isinstance(value, dict) and "cd_s" in value)
+        (arguments,) = names["parachutes"]
         self.assertAlmostEqual(arguments["cd_s"] / area, 1, delta=1e-3)
 
 

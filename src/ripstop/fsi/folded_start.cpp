@@ -20,11 +20,12 @@ namespace {
 
 constexpr double bending_weight = 1e-3;
 constexpr double strain_sought = 1e-4;
-// Share of the stiffness that resists compression. Folded cloth may wrinkle a little but not stretch.
-constexpr double compression_weight = 0.5;
-// Never reached. With it the masses of the relaxation are those of cloth that wrinkles, which moves fast across its
-// threads. With equal masses in all directions the soft motions that fold a curved strip converge far more slowly.
-constexpr double buckling_strain = 0.5;
+// A start with more strain is relaxed again, as cloth that wrinkles.
+constexpr double strain_allowed = 1e-3;
+// Of such cloth: the share of the stiffness that resists compression, and a strain that is never reached. With it the
+// masses of the relaxation are those of cloth that moves fast across its threads. With equal masses in all directions
+// the soft motions that fold a curved strip converge far more slowly.
+constexpr double compression_weight = 0.5, buckling_strain = 0.5;
 constexpr int steps_a_round = 2500, most_rounds = 24;
 // After so many rounds the largest strain must have fallen to this share of its value.
 constexpr int rounds_between_looks = 4;
@@ -41,15 +42,17 @@ std::vector<int> pieces_of_cloth(const Mesh& mesh) {
 }
 
 // The canopy without its supports: free lines and riser. All its springs are equally stiff, so that no part
-// is favoured, and resist compression less.
-Mesh canopy_of(const CanopyMesh& mesh, const FoldedStart& folded) {
+// is favoured.
+Mesh canopy_of(const CanopyMesh& mesh, const FoldedStart& folded, bool wrinkles) {
   Mesh canopy = with_creases(mesh, folded);
   const std::vector<int> piece = pieces_of_cloth(mesh);
   std::erase_if(canopy.springs, [&](const Spring& s) { return piece[s.a] < 0 || piece[s.b] < 0; });
   for (Patch& patch : canopy.patches) {
     for (int d = 0; d < direction_count; ++d) {
       const bool bends = d == bend_row || d == bend_column;
-      patch.law[d] = {{bends ? bending_weight : 1.0}, compression_weight, buckling_strain};
+      patch.law[d] = {{bends ? bending_weight : 1.0}, 1.0};
+      if (wrinkles)
+        patch.law[d].compression = compression_weight, patch.law[d].buckling_strain = buckling_strain;
       for (std::size_t i = 0; i < patch.width[d].size(); ++i)
         if (patch.width[d][i] > 0) patch.width[d][i] = patch.rest_length[d][i];
     }
@@ -121,6 +124,8 @@ class GoreFolder {
   }
   double share_for(double radius);
   FoldedStart relaxed(double share) const;
+  /// Returns the largest strain.
+  double relax_rounds(FoldedStart& start, bool wrinkles) const;
   void hang_up(FoldedStart& start) const;
   void measure(FoldedStart& start) const;
 
@@ -184,27 +189,32 @@ void GoreFolder::measure(FoldedStart& start) const {
 
 FoldedStart GoreFolder::relaxed(double share) const {
   FoldedStart start = zigzag_of_gores(mesh_, folds_, share);
-  Mesh canopy = canopy_of(mesh_, start);
+  if (relax_rounds(start, false) > strain_allowed) relax_rounds(start, true);
+  measure(start);
+  return start;
+}
+
+double GoreFolder::relax_rounds(FoldedStart& start, bool wrinkles) const {
+  Mesh canopy = canopy_of(mesh_, start, wrinkles);
   // Inner folds of the skirt stay where they are: the radius is given. All that are images of the first.
   const Patch& skirt = mesh_.patches.front();
   canopy.fixed.clear();
   for (int k = 0; k < symmetry_; ++k) canopy.fixed.push_back(skirt.node(0, k * (skirt.columns / symmetry_)));
   const ClothPtr cloth = make_cloth(canopy);
   ClothState state = start_state(*cloth);
-  double before = std::numeric_limits<double>::infinity();
+  double before = std::numeric_limits<double>::infinity(), strain = before;
   for (int round = 0; round < most_rounds; ++round) {
     set_positions(state, *cloth, start.positions);
     relax(state, *cloth, {}, {1e-12, steps_a_round, 1.0}, team_);
     start.positions = positions(state, *cloth);
     make_symmetric(canopy, symmetry_, start.positions);
-    const double strain = start_strain(canopy, start.positions).largest;
+    strain = start_strain(canopy, start.positions).largest;
     if (strain < strain_sought) break;
     if (round % rounds_between_looks != 0) continue;
     if (strain > gain_wanted * before) break;
     before = strain;
   }
-  measure(start);
-  return start;
+  return strain;
 }
 
 void GoreFolder::hang_up(FoldedStart& start) const {
