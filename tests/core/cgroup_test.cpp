@@ -17,15 +17,13 @@ using Files = std::vector<std::pair<std::string, std::string>>;
 
 /// Quota of a system with these files.
 std::optional<int> processors_with(const Files& files) {
-  const fs::path root = fs::path(testing::TempDir()) / "cgroup_test";
-  fs::remove_all(root);
+  const TemporaryFolder folder("cgroup");
+  const fs::path& root = folder.path;
   for (const auto& [name, text] : files) {
     fs::create_directories((root / name).parent_path());
     write_file(root / name, text);
   }
-  const auto processors = cgroup_processors(root);
-  fs::remove_all(root);
-  return processors;
+  return cgroup_processors(root);
 }
 
 TEST(Cgroup, RoundsTheQuotaOfVersionTwoUp) {
