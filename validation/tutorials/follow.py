@@ -112,8 +112,9 @@ def main():
             print(f"{title}: {commands} commands, {compared} compared, {processor:.0f} s of the processor, {wall:.0f} s", *faults, sep="\n  ", flush=True)
     titles = [path.read_text().splitlines()[0].lstrip("# ") for path in sorted((tables.ROOT / "docs/tutorials").glob("*.md"))]
     rows = {row[0]: row for row in tables.rows_of("tutorials")} | new
-    lines = ["The tutorials, followed from their pages in a fresh clone. The processor time is that of all threads of the commands; reading takes "
-             "the rest of the ten minutes. The wall time includes other work on the machine.", "",
+    lines = ["The tutorials, followed from their pages in a fresh clone: each command is executed, and the numbers and lines of output on the "
+             "page are compared with its output. The processor time is that of all threads of the commands. The wall time includes other "
+             "work on the machine. A tutorial without a row was not measured.", "",
              *tables.table(HEAD, [rows[title] for title in titles if title in rows])]
     if not failed:
         tables.write("tutorials", "Times of the tutorials", "make test-tutorials", tables.here(), lines)
