@@ -108,7 +108,8 @@ def main():
                 wrong.append(f"{label}: {outcome}")
     slow = [time for time in times if time[0] > options.seconds]
     slowest = max(times)
-    lines = [f"`ripstop size` computes {len(times):,} combinations of payload mass ({MASSES[0]:g} kg to {MASSES[-1] / 1000:g} t), descent rate ({RATES[0]:g} to {RATES[-1]:g} m/s), "
+    lines = [f"`ripstop size` computes {len(times):,} combinations of payload mass ({MASSES[0]:g} kg to {MASSES[-1] / 1000:g} t), "
+             f"descent rate ({RATES[0]:g} to {RATES[-1]:g} m/s), "
              f"height ({HEIGHTS[0]} to {HEIGHTS[-1] // 1000} km) and family ({', '.join(FAMILIES)}). A combination without a solution must be refused. "
              "Drag and weight of each parachute that is found agree within 0.3 %; "
              "the script computes both with its own model of the atmosphere.", "",
