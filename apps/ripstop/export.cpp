@@ -91,7 +91,7 @@ void add_export(CLI::App& app, int& status) {
           "of the axial one")
       ->check(CLI::ExistingDirectory);
   command->add_option("--trigger", options->trigger,
-                      "Deployment trigger: apogee, or a height above ground [m]");
+                      "Deployment trigger: apogee, or a height above the ground [m] (default: apogee)");
   add_number(*command, "--deployment-speed", options->deployment_speed, above(0).up_to(1000),
              "Speed at deployment, which sets the filling time (lag) [m/s] (default: speed of the run)");
   add_number(*command, "--drogue-speed", options->drogue_speed, above(0).up_to(1000),
@@ -111,7 +111,7 @@ void add_export(CLI::App& app, int& status) {
       ->needs(drogue);
   command
       ->add_flag("--drogue-released", options->drogue_released,
-                 "The drogue leaves when the main opens (default: it remains attached)")
+                 "The drogue is released when the main opens (default: it remains attached)")
       ->needs(drogue);
   command
       ->add_option("--reef", options->reefing,

@@ -114,7 +114,7 @@ void add_flight(CLI::App& command, RecoveryArguments& options) {
                  "keys of the profile with --set flight.wind.KEY",
                  options.overrides);
   command.add_flag("--drogue-released", r.drogue_released,
-                   "The drogue leaves when the main opens (default: it remains attached)");
+                   "The drogue is released when the main opens (default: it remains attached)");
 }
 
 }  // namespace
@@ -142,9 +142,9 @@ void add_recovery(CLI::App& app, int& status) {
                    "Run folder of ripstop steady or fly with the drag area of the drogue")
       ->check(CLI::ExistingDirectory);
   add_numbers(*command, "--section", r.sections, above(0).up_to(1e6),
-              "Masses of parts that land separately, for their kinetic energy [kg]");
+              "Masses of sections of the rocket, for the kinetic energy of each at landing [kg]");
   add_number(*command, "--bay-diameter", r.bay_diameter, above(0).up_to(10),
-             "Inner diameter of the parachute bay, for the length that is needed [m]");
+             "Inner diameter of the parachute bay, for the length that the packed parachute needs [m]");
   add_number(*command, "--packing-density", r.packing_density, packing_density_range,
              "Packing density [kg/m3] (default: packed by hand)");
   add_set_option(*command, options->overrides);

@@ -134,9 +134,15 @@ def main():
     if set(done) != set(ROWS):
         return
     made = [folder for name in done for folder in tables.runs_below(options.runs.resolve() / name)]
-    foot = ["X_1: peak over q S0, divided by that of the canopy held in the stream at 20 m/s.", "",
+    head = [f"Coupled openings of the canopy of {DIAMETER:g} m with a payload of 2.4 kg at 20 m/s on 48 x 48 x 60 cells; one parameter is "
+            "changed in each row ([description](../validation/inflation.md#filling)). D0: nominal diameter. Distances are from the "
+            "start of the coupled opening.", ""]
+    foot = ["Filled: the projected area first reaches its mean over the last fifth; not settled: the area still grows there, "
+            "or is less than twice that of the folded canopy. "
+            "Held in the stream: constant speed. q S0: dynamic pressure at the start times nominal area. "
+            "X_1: peak over q S0, divided by that of the canopy held in the stream at 20 m/s.", "",
             "![Projected area over the distance](filling.svg)"]
-    tables.write("filling", "Filling of a flat circular canopy", "make validate-filling", made, table + foot)
+    tables.write("filling", "Filling of a flat circular canopy", "make validate-filling", made, head + table + foot)
     plot(options, done)
 
 

@@ -108,12 +108,14 @@ def main():
                 wrong.append(f"{label}: {outcome}")
     slow = [time for time in times if time[0] > options.seconds]
     slowest = max(times)
-    lines = [f"{len(times):,} combinations of payload mass ({MASSES[0]:g} kg to {MASSES[-1] / 1000:g} t), descent rate ({RATES[0]:g} to {RATES[-1]:g} m/s), "
-             f"height ({HEIGHTS[0]} to {HEIGHTS[-1] // 1000} km) and family ({', '.join(FAMILIES)}). Drag and weight of each parachute agree within 0.3 %; "
+    lines = [f"`ripstop size` computes {len(times):,} combinations of payload mass ({MASSES[0]:g} kg to {MASSES[-1] / 1000:g} t), "
+             f"descent rate ({RATES[0]:g} to {RATES[-1]:g} m/s), "
+             f"height ({HEIGHTS[0]} to {HEIGHTS[-1] // 1000} km) and family ({', '.join(FAMILIES)}). A combination without a solution must be refused. "
+             "Drag and weight of each parachute that is found agree within 0.3 %; "
              "the script computes both with its own model of the atmosphere.", "",
              *tables.table(["outcome", "combinations"], [[outcome, str(count)] for outcome, count in outcomes.most_common()]),
              f"Processor time: median {1000 * statistics.median(time[0] for time in times):.0f} ms, largest {1000 * slowest[0]:.0f} ms ({slowest[1]}); "
-             f"{len(slow)} above {1000 * options.seconds:g} ms. Largest memory {max(memory):.0f} MB."]
+             f"{len(slow)} runs above the limit of {1000 * options.seconds:g} ms. Largest memory of a run {max(memory):.0f} MB."]
     tables.write("size-grid", "Sizes over mass, rate, height and family", "make test-sizes",
                  tables.here(), lines)
     print("\n".join(lines + wrong + [f"slow: {seconds:.3f} s, {label}" for seconds, label in slow]))
