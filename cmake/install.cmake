@@ -22,9 +22,10 @@ if(RIPSTOP_PYTHON)
 endif()
 
 install(TARGETS ripstop EXPORT ripstop-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
-# Without the two headers that need a library of their own; only sources include them.
+# Without the two headers that need a library of their own, which only sources include, and without Studio, a part of the program.
 install(DIRECTORY src/ripstop DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development FILES_MATCHING
-  PATTERN "*.h" PATTERN "run/json.h" EXCLUDE PATTERN "output/drawing.h" EXCLUDE)
+  PATTERN "*.h" PATTERN "run/json.h" EXCLUDE PATTERN "output/drawing.h" EXCLUDE
+  PATTERN "studio" EXCLUDE)
 install(EXPORT ripstop-targets NAMESPACE ripstop:: DESTINATION ${RIPSTOP_CMAKE_DIR} COMPONENT development)
 configure_package_config_file(cmake/ripstop-config.cmake.in ${CMAKE_BINARY_DIR}/ripstop-config.cmake
   INSTALL_DESTINATION ${RIPSTOP_CMAKE_DIR})

@@ -102,7 +102,7 @@ TEST(Results, OfASteadyRunAreThoseOfItsLastIterationAndState) {
   EXPECT_EQ(result.density, air(given).density);
   double wall = 0;
   for (const SteadyIteration& i : state.iterations) wall += i.wall_time;
-  EXPECT_EQ(result.wall_time, wall);
+  EXPECT_GE(result.wall_time, wall) << "of the whole run";
   EXPECT_GT(wall, 0);
   EXPECT_EQ(result.size.projected_diameter,
             canopy_size(parachute_mesh(resolve(given)), state.shape).projected_diameter);
