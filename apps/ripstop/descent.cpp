@@ -56,12 +56,7 @@ int descent(const DescentArguments& options) {
   const Descent result =
       run_descent(carrying_run(options.run), options.mass, options.heights, options.ground);
   if (!options.out.empty()) write_file(options.out / "result.json", to_json(result));
-  if (options.json)
-    fmt::print("{}", to_json(result));
-  else
-    print_result(result);
-  print_warnings(result.warnings);
-  return 0;
+  return show(result, options.json, [&] { print_result(result); });
 }
 
 }  // namespace

@@ -140,12 +140,7 @@ int load(LoadArguments& options) {
   if (options.fastest) {
     const FastestResult fastest = run_fastest(resolved, request, options.margin);
     write_fastest(options.out, fastest);
-    if (options.json)
-      fmt::print("{}", to_json(fastest));
-    else
-      print_fastest(fastest, options.out);
-    print_warnings(fastest.warnings);
-    return 0;
+    return show(fastest, options.json, [&] { print_fastest(fastest, options.out); });
   }
   if (!options.speed)
     throw Error(ExitCode::usage,
@@ -153,12 +148,7 @@ int load(LoadArguments& options) {
   request.speed = *options.speed;
   const LoadResult result = run_load(resolved, request);
   write_load(options.out, result);
-  if (options.json)
-    fmt::print("{}", to_json(result));
-  else
-    print_result(result, options.out);
-  print_warnings(result.warnings);
-  return 0;
+  return show(result, options.json, [&] { print_result(result, options.out); });
 }
 
 void add_coefficients(CLI::App& command, LoadRequest& r) {

@@ -85,12 +85,7 @@ int recovery(RecoveryArguments& options) {
   options.request.mass = options.mass ? *options.mass : *main.payload().mass_kg;
   const RecoveryResult result = run_recovery(main, drogue, options.request);
   write_recovery(options.out, result);
-  if (options.json)
-    fmt::print("{}", to_json(result));
-  else
-    print_result(result, options.out);
-  print_warnings(result.warnings);
-  return 0;
+  return show(result, options.json, [&] { print_result(result, options.out); });
 }
 
 void add_flight(CLI::App& command, RecoveryArguments& options) {

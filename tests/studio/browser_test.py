@@ -199,7 +199,7 @@ class StudioPage(unittest.TestCase):
         self.click("[data-view=materials]")
         self.drop(sorted((ROOT / "examples/fit-ripstop/records").glob("warp-[12].csv")))
         self.until("document.querySelectorAll('[data-record]').length === 2")
-        for name, text in (("areal", "0.0407"), ("thick", "7.6e-5"), ("source", "a <b>test</b>"), ("cfm", "3")):
+        for name, text in (("areal", "0.0407"), ("thick", "7.6e-5"), ("source", "A & B <lab@example.org>"), ("cfm", "3")):
             self.type_into(f"[data-control=fit-{name}]", text)
         self.click("[data-control=fit-go]")
         self.until("document.querySelector('[data-part=fit-result]').dataset.state === 'done' || document.querySelector('[data-part=fit-problem]').textContent")

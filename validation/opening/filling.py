@@ -97,19 +97,22 @@ def plot(options, done):
     width, height, left, low = 640, 360, 50, 320
     parts = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" font-family="sans-serif" '
              'font-size="11">', f'<rect width="{width}" height="{height}" fill="white"/>']
+    balances = {name: columns(options.runs.resolve() / name, "balance.csv") for name in done}
+    top = math.ceil(max(max(balance["projected_area_m2"]) for balance in balances.values()) / 0.5)  # in 0.5 m2
     for k in range(5):
         parts.append(f'<text x="{left + 100 * k}" y="{low + 16}" text-anchor="middle">{k}</text>')
-        parts.append(f'<text x="{left - 6}" y="{low - 75 * k + 4}" text-anchor="end">{0.5 * k:g}</text>')
+    for k in range(top + 1):
+        parts.append(f'<text x="{left - 6}" y="{low - 300 / top * k + 4:.1f}" text-anchor="end">{0.5 * k:g}</text>')
     parts.append(f'<text x="{left + 200}" y="{low + 34}" text-anchor="middle">distance / nominal diameter</text>')
     parts.append(f'<text x="{left}" y="14">projected area, m2</text>')
     parts.append(f'<path d="M{left} {low - 300}V{low}H{left + 400}" fill="none" stroke="black"/>')
     for i, name in enumerate(done):
         folder = options.runs.resolve() / name
         speed = float({**COARSE, **ROWS[name][1]}["flow.speed_m_s"])
-        balance, colour = columns(folder, "balance.csv"), f"hsl({i * 360 // len(done)},70%,40%)"
+        balance, colour = balances[name], f"hsl({i * 360 // len(done)},70%,40%)"
         points = [(travelled(folder, speed, t) / DIAMETER, a)
                   for t, a in zip(balance["time_s"], balance["projected_area_m2"])]
-        line = " ".join(f"{left + 100 * x:.1f},{low - 150 * a:.1f}" for x, a in points if x <= 4)
+        line = " ".join(f"{left + 100 * x:.1f},{low - 600 / top * a:.1f}" for x, a in points if x <= 4)
         parts.append(f'<polyline points="{line}" fill="none" stroke="{colour}"/>')
         parts.append(f'<text x="{left + 410}" y="{30 + 16 * i}" fill="{colour}">{ROWS[name][0]}</text>')
     (ROOT / "docs/tables/filling.svg").write_text("\n".join([*parts, "</svg>"]) + "\n")

@@ -45,7 +45,7 @@ FlowProblem flow_problem(const Settings& resolved) {
   const ClothResistance& cloth = resolved.materials().canopy.resistance;
   if (flow.porosity_model == PorosityModel::sheet) {
     problem.bodies = {sheet_body({}, as_sheet(cloth))};
-    for (FlowBody& body : rigid_bodies(resolved).bodies) problem.bodies.push_back(std::move(body));
+    for (FlowBody& body : rigid_bodies(resolved)) problem.bodies.push_back(std::move(body));
   } else {
     const PorousCellLaw cells = as_cells(cloth);
     problem.bodies = {porous_body({{}, cells.darcy, cells.forchheimer})};

@@ -142,8 +142,8 @@ double usual_trailing_distance(const Design& parachute) {
   return std::sqrt(std::max(0.0, length * length - radius * radius)) + parachute.riser.length_m;
 }
 
-RigidBodies rigid_bodies(const Settings& resolved) {
-  RigidBodies rigid;
+std::vector<FlowBody> rigid_bodies(const Settings& resolved) {
+  std::vector<FlowBody> rigid;
   for (const auto& [name, keys] : resolved.written().bodies) {
     std::vector<Triangle> triangles =
         std::visit([&](const auto& shape) { return surface(shape, resolved); }, keys.shape);
@@ -152,9 +152,8 @@ RigidBodies rigid_bodies(const Settings& resolved) {
                       resolved.flow().canopy_position_m - keys.trailing_distance_m.value()};
     for (Triangle& t : triangles)
       for (Vec3* p : {&t.a, &t.b, &t.c}) *p += aft;
-    rigid.areas.push_back(keys.reference_area_m2.value_or(frontal_area(triangles)));
-    rigid.bodies.push_back(sheet_body(std::move(triangles), impermeable, name));
-    rigid.bodies.back().moment_about = aft;
+    rigid.push_back(sheet_body(std::move(triangles), impermeable, name));
+    rigid.back().moment_about = aft;
   }
   return rigid;
 }

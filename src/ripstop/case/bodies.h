@@ -62,13 +62,9 @@ BodySize size_of(const BodyKeys& keys);
 /// From the skirt of the inflated canopy to the end of the riser, about [m].
 double usual_trailing_distance(const Design& parachute);
 
-/// The bodies of a case as bodies of a flow, in the order of their names, and their reference areas [m2]. Throws
-/// Error(bad_data) for a surface that is not closed, and for a file that is no STL.
-struct RigidBodies {
-  std::vector<FlowBody> bodies;
-  std::vector<double> areas;
-};
-RigidBodies rigid_bodies(const Settings& resolved);
+/// The bodies of a case as bodies of a flow, in the order of their names. Throws Error(bad_data) for a surface that is
+/// not closed, and for a file that is no STL.
+std::vector<FlowBody> rigid_bodies(const Settings& resolved);
 /// Throws Error(usage) for a case with bodies: `what` computes the canopy alone.
 void require_canopy_alone(const Settings& resolved, const char* what);
 

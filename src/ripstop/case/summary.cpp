@@ -51,7 +51,7 @@ CaseSummary summarize(const Settings& resolved) {
   const ClothPtr cloth = make_cloth(mesh, options);
   summary.step = stability_limit(*cloth, start_state(*cloth));
 
-  const FlowGrid grid = flow_problem(resolved).grid;
+  const FlowGrid grid = flow_grid(resolved.flow());
   summary.flow_cells = static_cast<long long>(grid.nx) * grid.ny * grid.nz;
   summary.flow_spacing = grid.spacing();
   const double diameter = start_diameter(resolved.parachute());

@@ -91,13 +91,9 @@ bool FlowProblem::has_sheets() const {
   return std::any_of(bodies.begin(), bodies.end(), [](const FlowBody& body) { return body.is_sheet(); });
 }
 
-Vec3 canopy_force(const FlowField& field) {
-  return field.porous_force - force_on_others(field);
-}
-
-Vec3 force_on_others(const FlowField& field) {
+Vec3 force_on_others(const std::vector<BodyLoad>& bodies) {
   Vec3 sum;
-  for (std::size_t n = 1; n < field.bodies.size(); ++n) sum += field.bodies[n].force;
+  for (std::size_t n = 1; n < bodies.size(); ++n) sum += bodies[n].force;
   return sum;
 }
 

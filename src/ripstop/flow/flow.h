@@ -276,9 +276,8 @@ class FlowEngine {
   virtual std::unique_ptr<Flow> start(const FlowProblem& problem) = 0;
 };
 
-/// On the first body, the canopy, and on all others together.
-Vec3 canopy_force(const FlowField& field);
-Vec3 force_on_others(const FlowField& field);
+/// On all bodies but the first, the canopy.
+Vec3 force_on_others(const std::vector<BodyLoad>& bodies);
 
 /// Those of one body.
 std::vector<SheetLoad> loads_on(std::size_t body, std::vector<SheetLoad> loads);

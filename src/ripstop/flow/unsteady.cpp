@@ -62,20 +62,13 @@ class MeanInParts {
   std::vector<Part> parts_;
 };
 
-/// On the canopy, the first of the bodies.
-Vec3 canopy_force(const FlowStep& step) {
-  Vec3 force = step.force;
-  for (std::size_t n = 1; n < step.bodies.size(); ++n) force = force - step.bodies[n].force;
-  return force;
-}
-
-/// That force along one axis.
+/// The force on the canopy along one axis.
 Record record_of(const std::vector<FlowStep>& steps, Vec3 axis) {
   Record record;
   record.begin = steps.front().time - steps.front().length;
   for (const FlowStep& step : steps) {
     record.until.push_back(step.time);
-    record.values.push_back(dot(canopy_force(step), axis));
+    record.values.push_back(dot(step.force - force_on_others(step.bodies), axis));
   }
   return record;
 }

@@ -41,8 +41,9 @@ void enter_flow(SteadyIteration& now, const SteadyState& state, const FlowField&
   now.flow_converged = field.converged;
   now.flow_averaged = field.average.iterations;
   now.drag_deviation = field.average.drag_deviation;
-  now.fluid_force = canopy_force(field).z;
-  now.momentum_deficit = field.momentum_deficit.z - force_on_others(field).z;
+  const Vec3 others = force_on_others(field.bodies);
+  now.fluid_force = field.porous_force.z - others.z;
+  now.momentum_deficit = field.momentum_deficit.z - others.z;
   now.approach_speed = approach_speed(field, mesh, shape);
   now.drag_change = state.iterations.empty()
                         ? std::numeric_limits<double>::infinity()

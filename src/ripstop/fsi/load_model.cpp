@@ -26,8 +26,8 @@ ClothLoad load_on_cloth(CanopyLoad model, const FlowField& field, const CanopySu
                         const SidePressures& sides, SteadyIteration& now) {
   ClothLoad load{sides.difference(), {}};
   if (model == CanopyLoad::of_flow)
-    load = load_of_flow(field.bodies.size() > 1 ? loads_on(0, field.sheet_loads) : field.sheet_loads,
-                        field.grid, canopy.triangles, canopy.cells, canopy.shape);
+    load = load_of_flow(loads_on(0, field.sheet_loads), field.grid, canopy.triangles, canopy.cells,
+                        canopy.shape);
   now.transfer_factor = now.fluid_force / axial_force(canopy, load.pressure);
   now.residual_traction = residual_traction_share(load, canopy.cells, canopy.shape);
   if (model == CanopyLoad::uniform) {

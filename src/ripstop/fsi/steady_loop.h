@@ -59,6 +59,8 @@ class SteadySolver {
   const Flow& flow() const { return *flow_; }
   const Cloth& cloth() const { return *cloth_; }
   const CanopyMesh& mesh() const { return problem_.mesh; }
+  /// Of the flow: the canopy, whose surface is that of the start, and rigid bodies.
+  const std::vector<FlowBody>& bodies() const { return problem_.flow.bodies; }
   /// Why the whole box is solved, as a clause; empty: a quarter of it is.
   const std::string& full_box_because() const { return problem_.full_box_because; }
   const std::vector<Cell>& cells() const { return cells_; }

@@ -10,9 +10,9 @@
 
 #include "ripstop/canopy/mirror.h"
 #include "ripstop/case/assemble.h"
-#include "ripstop/case/bodies.h"
 #include "ripstop/case/cost.h"
 #include "ripstop/case/resolve.h"
+#include "ripstop/flow/bodies.h"
 #include "ripstop/run/engine.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/quality.h"
@@ -60,13 +60,16 @@ UnsteadyResult unsteady_result(const WindowAverage& watched, const Settings& res
   return result;
 }
 
-std::vector<BodyResult> body_results(const SteadyState& state, const Settings& resolved) {
-  const RigidBodies rigid = rigid_bodies(resolved);
+std::vector<BodyResult> body_results(const std::vector<FlowBody>& bodies, const SteadyState& state,
+                                     const Settings& resolved) {
   std::vector<BodyResult> results;
   for (std::size_t n = 0; n < state.body_forces.size(); ++n) {
+    const FlowBody& body = bodies.at(n + 1);
     const Vec3 force = state.body_forces[n];
-    results.push_back({rigid.bodies.at(n).name, force.z, std::hypot(force.x, force.y), state.body_moments[n],
-                       rigid.areas.at(n), force.z / (dynamic_pressure(resolved) * rigid.areas.at(n))});
+    const double area =
+        resolved.written().bodies.at(body.name).reference_area_m2.value_or(frontal_area(body.surface));
+    results.push_back({body.name, force.z, std::hypot(force.x, force.y), state.body_moments[n], area,
+                       force.z / (dynamic_pressure(resolved) * area)});
   }
   return results;
 }
@@ -101,7 +104,7 @@ SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state,
   r.domain = solved_domain(solver, state);
   if (state.in_time) r.unsteady = unsteady_result(state.window, resolved);
   r.measured = resolved.measured_row();
-  if (!state.body_forces.empty()) r.bodies = body_results(state, resolved);
+  if (!state.body_forces.empty()) r.bodies = body_results(solver.bodies(), state, resolved);
   take_quality(r, resolved);
   return r;
 }

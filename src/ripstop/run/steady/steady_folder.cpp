@@ -101,8 +101,10 @@ void SteadyFolder::ended(const SteadyRun& run, const SteadyState& state, const S
     write_state(run, state);
   }
   write_stl(folder_.own("canopy.stl"), surface_of(run.solver.cells(), state.shape));
-  for (const FlowBody& body : rigid_bodies(run.resolved).bodies)
+  for (std::size_t n = 1; n < run.solver.bodies().size(); ++n) {
+    const FlowBody& body = run.solver.bodies()[n];
     write_stl(folder_.own(fmt::format("body-{}.stl", body.name)), body.surface);
+  }
   write_drag_plot(state, result.title);
   write_pressure(run, state, result);
   if (const std::string failure = folder_.end(result); !failure.empty()) next_.warned(failure);
