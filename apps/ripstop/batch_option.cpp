@@ -11,7 +11,7 @@
 #include "ripstop/core/shell.h"
 #include "ripstop/core/visible.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -82,4 +82,4 @@ void write_and_tell(const fs::path& folder, const std::vector<BatchFile>& files,
   fmt::print("Submit: {} {}\n", command, visible(plain ? path : shell_quoted(path)));
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

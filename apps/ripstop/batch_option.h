@@ -11,7 +11,7 @@ namespace CLI {
 class App;
 }
 
-namespace ripstop {
+namespace ripstop::cli {
 
 struct BatchOptions {
   std::string system;           // "slurm"; empty: compute here
@@ -30,4 +30,4 @@ BatchJob batch_job(const BatchOptions& options, const std::filesystem::path& fol
 void write_and_tell(const std::filesystem::path& folder, const std::vector<BatchFile>& files,
                     const std::string& command, const std::string& name);
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

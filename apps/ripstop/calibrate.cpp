@@ -15,7 +15,7 @@
 #include "ripstop/run/opening/damping.h"
 #include "ripstop/run/run_folder.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -94,4 +94,4 @@ void add_calibrate(CLI::App& app, int& status) {
   add_calibrate_porosity(*command, status);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

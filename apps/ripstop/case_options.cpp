@@ -9,7 +9,7 @@
 #include "number_option.h"
 #include "warnings.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 
 Case read_given(const std::filesystem::path& file, const Overrides& overrides) {
   Case given = read_case(file, overrides);
@@ -73,4 +73,4 @@ void add_case_options(CLI::App& command, Overrides& overrides) {
   add_set_option(command, overrides);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

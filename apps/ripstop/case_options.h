@@ -7,7 +7,7 @@ namespace CLI {
 class App;
 }
 
-namespace ripstop {
+namespace ripstop::cli {
 
 /// A case file with the changes of the command line. Reports its deprecated keys on standard error.
 Case read_given(const std::filesystem::path& file, const Overrides& overrides = {});
@@ -24,4 +24,4 @@ void add_flow_options(CLI::App& command, Overrides& overrides);
 /// --speed, --linear, --set, --unset.
 void add_case_options(CLI::App& command, Overrides& overrides);
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

@@ -18,7 +18,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/run/json.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -139,4 +139,4 @@ void add_check(CLI::App& app, int& status) {
   command->callback([options, &status] { status = run(*options); });
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

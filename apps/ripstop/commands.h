@@ -5,7 +5,7 @@ namespace CLI {
 class App;
 }
 
-namespace ripstop {
+namespace ripstop::cli {
 
 void add_check(CLI::App& app, int& status);
 void add_schema(CLI::App& app, int& status);
@@ -33,4 +33,4 @@ void add_size(CLI::App& app, int& status);
 void add_studio(CLI::App& app, int& status);
 void add_export(CLI::App& app, int& status);
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

@@ -26,7 +26,7 @@
 #include "table_options.h"
 #include "units_option.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -187,4 +187,4 @@ void add_compare(CLI::App& app, int& status) {
   command->callback([options, &status] { status = compare(*options); });
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

@@ -17,7 +17,7 @@
 #include "ripstop/run/flight/measured_flight.h"
 #include "table_options.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -114,4 +114,4 @@ void add_compare_flight(CLI::App& app, int& status) {
   command->callback([options, &status] { status = compare(*options); });
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

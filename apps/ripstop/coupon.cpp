@@ -19,7 +19,7 @@
 #include "ripstop/core/file.h"
 #include "ripstop/run/material/fit.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -141,4 +141,4 @@ void add_coupon(CLI::App& app, int& status) {
   command->callback([options, &status] { status = run(*options); });
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

@@ -18,7 +18,7 @@
 #include "units_option.h"
 #include "warnings.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -85,4 +85,4 @@ void add_descent(CLI::App& app, int& status) {
   command->callback([options, &status] { status = descent(*options); });
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

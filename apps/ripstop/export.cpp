@@ -16,7 +16,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -123,4 +123,4 @@ void add_export(CLI::App& app, int& status) {
   command->callback([options, &status] { status = export_run(*options); });
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

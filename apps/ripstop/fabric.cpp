@@ -20,7 +20,7 @@
 #include "units_option.h"
 #include "warnings.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -93,4 +93,4 @@ void add_fabric(CLI::App& app, int& status) {
   command->callback([options, &status] { status = run(*options); });
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace ripstop {
+namespace ripstop::cli {
 
 void print_coupons(const std::vector<CouponComparison>& coupons) {
   for (const CouponComparison& c : coupons) {
@@ -14,4 +14,4 @@ void print_coupons(const std::vector<CouponComparison>& coupons) {
   }
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

@@ -5,8 +5,8 @@
 
 #include "ripstop/calibration/coupon_fit.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 
 void print_coupons(const std::vector<CouponComparison>& coupons);
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

@@ -18,7 +18,7 @@
 #include "ripstop/flow/stl.h"
 #include "ripstop/run/steady/parity.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 namespace {
 
 struct FlowParityArguments {
@@ -123,4 +123,4 @@ void add_flow_parity(CLI::App& app, int& status) {
   command->callback([options, &status] { status = run(*options); });
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

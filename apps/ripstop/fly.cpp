@@ -21,7 +21,7 @@
 #include "units_option.h"
 #include "warnings.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -231,4 +231,4 @@ void add_fly(CLI::App& app, int& status) {
   command->callback([options, &status] { status = fly(*options); });
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

@@ -14,7 +14,7 @@
 #include "ripstop/core/file.h"
 #include "ripstop/core/visible.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -118,4 +118,4 @@ void add_import(CLI::App& app, int& status) {
   command->callback([options, &status] { status = run(*options); });
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

@@ -7,7 +7,7 @@
 
 #include "warnings.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 
 inline void add_json_option(CLI::App& command, bool& json) {
   command.add_flag("--json", json, "Print only the result, as JSON with the content of result.json");
@@ -24,4 +24,4 @@ int show(const Result& result, bool json, Print&& print) {
   return 0;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

@@ -17,7 +17,7 @@
 #include "ripstop/core/visible.h"
 #include "stopping.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 namespace {
 
 int failed(ExitCode code, const std::string& message) {
@@ -142,11 +142,11 @@ int run(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace ripstop
+}  // namespace ripstop::cli
 
 int main(int argc, char** argv) {
   try {
-    return ripstop::run(argc, argv);
+    return ripstop::cli::run(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "ripstop: internal error: %s\n", error.what());
   } catch (...) {

@@ -7,7 +7,7 @@
 
 #include "units_option.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 
 void print_stresses(double max_line_tension, const StressPeak& stress) {
   print_row("maximum line tension", fmt::format("{:.1f} N", max_line_tension));
@@ -62,4 +62,4 @@ std::string weakest_text(const std::optional<Margins>& margins) {
                      *m->margin < 0 ? ", ALLOWABLE LOAD EXCEEDED" : "");
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

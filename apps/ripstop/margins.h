@@ -8,7 +8,7 @@
 #include "ripstop/run/opening/fastest.h"
 #include "ripstop/run/steady/steady.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 
 /// `max_line_tension` in N.
 void print_stresses(double max_line_tension, const StressPeak& stress);
@@ -19,4 +19,4 @@ std::string safe_speed_text(const SafeSpeed& safe);
 /// ", riser: margin of safety -0.85, ALLOWABLE LOAD EXCEEDED"; empty where no strength is known.
 std::string weakest_text(const std::optional<Margins>& margins);
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

@@ -11,7 +11,7 @@
 #include "ripstop/core/quantity.h"
 #include "ripstop/core/visible.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 namespace {
 
 constexpr const char *number_type = "NUMBER", *integer_type = "INTEGER";
@@ -178,4 +178,4 @@ CLI::Option* add_key_number(CLI::App& command, const std::string& option, const 
              });
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

@@ -14,7 +14,7 @@ class App;
 class Option;
 }  // namespace CLI
 
-namespace ripstop {
+namespace ripstop::cli {
 
 CLI::Option* add_number(CLI::App& command, const std::string& option, double& value, Range range,
                         const std::string& help);
@@ -46,4 +46,4 @@ std::string key_type(const std::string& key);
 /// "Nominal speed [m/s]; above 0 and at most 100".
 std::string with_range(const std::string& help, Range range);
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

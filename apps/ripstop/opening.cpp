@@ -8,7 +8,7 @@
 #include "number_option.h"
 #include "ripstop/run/steady/steady_folder.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 void add_opening_options(CLI::App& command, OpeningOptions& options) {
   command.add_option("case", options.case_file, "Case file (TOML) with an [inflation] table")->required();
   CLI::Option* steady = command
@@ -47,4 +47,4 @@ LoadSource load_source(const Settings& opening, const std::filesystem::path& ste
   return {fmt::format("steady run {}: {:.4g} N", steady_run.string(), drag), drag};
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

@@ -9,7 +9,7 @@ namespace CLI {
 class App;
 }
 
-namespace ripstop {
+namespace ripstop::cli {
 
 struct OpeningOptions {
   std::filesystem::path case_file, steady_run;
@@ -25,4 +25,4 @@ int threads_of(const OpeningOptions& options, const Settings& opening);
 /// As of the case, or of a steady run. Throws Error(bad_data) for a steady run without a result.
 LoadSource load_source(const Settings& opening, const std::filesystem::path& steady_run);
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

@@ -14,7 +14,7 @@
 #include "number_option.h"
 #include "ripstop/core/error.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -89,4 +89,4 @@ void add_photogrammetry(CLI::App& app, int& status) {
   command->callback([options, &status] { status = photogrammetry(*options); });
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

@@ -21,7 +21,7 @@
 #include "sweep_progress.h"
 #include "table_options.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -254,4 +254,4 @@ void add_calibrate_porosity(CLI::App& parent, int& status) {
   command->callback([options, &status] { status = calibrate(*options); });
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

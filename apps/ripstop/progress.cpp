@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-namespace ripstop {
+namespace ripstop::cli {
 
 Progress::Progress() : terminal_(isatty(STDERR_FILENO) != 0), last_(std::chrono::steady_clock::now()) {}
 
@@ -49,4 +49,4 @@ std::string rough_duration(double seconds) {
   return fmt::format("{:.0f} {}", digit * std::round(value / digit), unit);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <string>
 
-namespace ripstop {
+namespace ripstop::cli {
 
 class Progress {
  public:
@@ -27,4 +27,4 @@ std::string duration_text(double seconds);
 /// Of an estimate: "50 s", "12 min", "3.1 h".
 std::string rough_duration(double seconds);
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

@@ -17,7 +17,7 @@
 #include "units_option.h"
 #include "warnings.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -149,4 +149,4 @@ void add_recovery(CLI::App& app, int& status) {
   command->callback([options, &status] { status = recovery(*options); });
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

@@ -6,7 +6,7 @@
 
 #include "ripstop/core/error.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 
 ReefedStage parse_reefed_stage(const std::string& text) {
   std::istringstream in(text);
@@ -19,4 +19,4 @@ ReefedStage parse_reefed_stage(const std::string& text) {
   return stage;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

@@ -5,9 +5,9 @@
 
 #include "ripstop/run/opening/load.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 
 /// Throws Error(usage) for another form; the values are checked where they are used.
 ReefedStage parse_reefed_stage(const std::string& text);
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

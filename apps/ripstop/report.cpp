@@ -11,7 +11,7 @@
 
 #include "commands.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 namespace {
 
 struct ReportArguments {
@@ -39,4 +39,4 @@ void add_report(CLI::App& app, int& status) {
   });
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

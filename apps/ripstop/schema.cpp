@@ -8,7 +8,7 @@
 #include "commands.h"
 #include "ripstop/case/case.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 
 void add_schema(CLI::App& app, int& status) {
   auto reference = std::make_shared<bool>(false);
@@ -22,4 +22,4 @@ void add_schema(CLI::App& app, int& status) {
   });
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

@@ -25,7 +25,7 @@
 #include "units_option.h"
 #include "warnings.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -237,4 +237,4 @@ void add_size(CLI::App& app, int& status) {
   command->callback([options, &status] { status = size(*options); });
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

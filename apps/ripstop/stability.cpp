@@ -22,7 +22,7 @@
 #include "stopping.h"
 #include "warnings.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -225,4 +225,4 @@ void add_stability(CLI::App& app, int& status) {
   command->callback([options, &status] { status = stability(*options); });
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

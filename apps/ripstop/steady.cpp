@@ -26,7 +26,7 @@
 #include "units_option.h"
 #include "warnings.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -199,4 +199,4 @@ void add_steady(CLI::App& app, int& status) {
   command->callback([options, &status] { status = run(*options); });
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

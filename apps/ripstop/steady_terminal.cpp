@@ -8,7 +8,7 @@
 
 #include "ripstop/case/resolve.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 namespace {
 
 // Iterations still to come: as many as the drag's change needs at its rate of fall so far, five at the first.
@@ -118,4 +118,4 @@ double SteadyTerminal::elapsed() const {
   return std::chrono::duration<double>(Clock::now() - begin_).count();
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

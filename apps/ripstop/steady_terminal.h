@@ -7,7 +7,7 @@
 #include "progress.h"
 #include "ripstop/run/steady/steady.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 
 class SteadyTerminal : public SteadyObserver {
  public:
@@ -30,4 +30,4 @@ class SteadyTerminal : public SteadyObserver {
   double before_ = 0;  // elapsed at the end of the last iteration [s]
 };
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

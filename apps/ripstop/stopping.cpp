@@ -6,7 +6,7 @@
 #include <atomic>
 #include <cstring>
 
-namespace ripstop {
+namespace ripstop::cli {
 namespace {
 
 std::atomic<bool> goes_on{false};
@@ -40,4 +40,4 @@ void goes_on_when_repeated() {
   goes_on = true;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

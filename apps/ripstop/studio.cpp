@@ -16,7 +16,7 @@
 #include "ripstop/core/process.h"
 #include "ripstop/studio/server.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -80,4 +80,4 @@ void add_studio(CLI::App& app, int& status) {
   command->callback([options, &status] { status = studio(*options); });
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

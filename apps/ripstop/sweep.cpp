@@ -20,7 +20,7 @@
 #include "sweep_progress.h"
 #include "warnings.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 namespace {
 
 struct SweepArguments : SweepOptions {
@@ -188,4 +188,4 @@ void add_sweep(CLI::App& app, int& status) {
   command->callback([options, &status] { status = sweep(*options); });
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

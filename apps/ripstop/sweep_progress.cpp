@@ -16,7 +16,7 @@
 #include "ripstop/run/sweep/sweep_files.h"
 #include "stopping.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 namespace {
 
 std::string short_text(const SteadyProgress& p) {
@@ -110,4 +110,4 @@ void require_all(const std::vector<SweepPoint>& points, const std::vector<SweepR
   }
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

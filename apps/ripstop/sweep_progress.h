@@ -12,7 +12,7 @@ namespace CLI {
 class App;
 }
 
-namespace ripstop {
+namespace ripstop::cli {
 
 struct SweepOptions {
   std::filesystem::path case_file;
@@ -32,4 +32,4 @@ std::vector<SweepRow> run_and_tell(const std::vector<SweepAxis>& axes, const std
 /// when one did not converge.
 void require_all(const std::vector<SweepPoint>& points, const std::vector<SweepRow>& rows);
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-namespace ripstop {
+namespace ripstop::cli {
 
 void add_table_options(CLI::App& command, std::string& columns, std::string& decimal,
                        const std::string& example) {
@@ -14,4 +14,4 @@ void add_table_options(CLI::App& command, std::string& columns, std::string& dec
       ->option_text("auto|point|comma");
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

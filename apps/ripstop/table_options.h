@@ -7,9 +7,9 @@ namespace CLI {
 class App;
 }
 
-namespace ripstop {
+namespace ripstop::cli {
 
 void add_table_options(CLI::App& command, std::string& columns, std::string& decimal,
                        const std::string& example);
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

@@ -4,7 +4,7 @@
 
 #include "ripstop/core/us_units.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 namespace {
 
 std::string chosen_units = "si";
@@ -34,4 +34,4 @@ void print_row(const char* name, const std::string& text) {
   print_text("  {:<26} {}\n", name, text);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

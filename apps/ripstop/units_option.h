@@ -10,7 +10,7 @@ namespace CLI {
 class App;
 }
 
-namespace ripstop {
+namespace ripstop::cli {
 
 /// --units si|us: with us, every printed value in SI is followed by that in US customary units.
 void add_units_option(CLI::App& command);
@@ -29,4 +29,4 @@ void print_text(fmt::format_string<Args...> format, Args&&... args) {
 /// A row of a summary: a name and its text.
 void print_row(const char* name, const std::string& text);
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

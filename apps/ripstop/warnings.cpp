@@ -11,7 +11,7 @@
 #include "ripstop/core/visible.h"
 #include "ripstop/run/steady/warnings.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 
 void print_warnings(const std::vector<std::string>& warnings) {
   std::fflush(stdout);
@@ -41,4 +41,4 @@ void print_material_warnings(const Settings& resolved, double largest_cloth_stra
   print_warnings(strain_warnings(resolved, largest_cloth_strain));
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

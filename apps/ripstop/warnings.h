@@ -7,7 +7,7 @@
 
 #include "ripstop/case/settings.h"
 
-namespace ripstop {
+namespace ripstop::cli {
 
 /// A line each on standard error; on a terminal the word "warning" is red.
 void print_warnings(const std::vector<std::string>& warnings);
@@ -29,4 +29,4 @@ void print_case_warnings(const Settings& resolved);
 /// canopy was strained beyond its tests.
 void print_material_warnings(const Settings& resolved, double largest_cloth_strain);
 
-}  // namespace ripstop
+}  // namespace ripstop::cli

@@ -11,7 +11,7 @@
 #include "ripstop/material/lattice.h"
 #include "ripstop/mesh/builder.h"
 
-namespace ripstop {
+namespace ripstop::inline calibration {
 namespace {
 
 constexpr int most_cells = 400;
@@ -322,4 +322,4 @@ CouponPull pull_coupon(const CouponMesh& coupon, const std::vector<double>& stra
   return pull;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline calibration

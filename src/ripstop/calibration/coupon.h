@@ -17,7 +17,7 @@
 #include "ripstop/material/material.h"
 #include "ripstop/mesh/mesh.h"
 
-namespace ripstop {
+namespace ripstop::inline calibration {
 
 struct CouponShape {
   double length = 0.2;        // [m] between the clamps
@@ -69,4 +69,4 @@ CouponPull pull_coupon(const CouponMesh& coupon, const std::vector<double>& stra
                        const PullOptions& options, ThreadTeam& team,
                        std::vector<std::vector<Vec3>>* guess = nullptr);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline calibration

@@ -12,7 +12,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/least_squares.h"
 
-namespace ripstop {
+namespace ripstop::inline calibration {
 namespace {
 
 constexpr double lowest_shear = 0.01;  // without diagonals a bias coupon is a mechanism
@@ -296,4 +296,4 @@ CouponFit fit_coupons(const MaterialFit& fit, const Bench& bench, const CouponFi
   return result;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline calibration

@@ -9,7 +9,7 @@
 #include "ripstop/core/thread_team.h"
 #include "ripstop/material/fit_material.h"
 
-namespace ripstop {
+namespace ripstop::inline calibration {
 
 struct CouponFitOptions {
   bool find_shear = true;           // xi; else the fabric's own is kept
@@ -56,4 +56,4 @@ CouponFit fit_coupons(const MaterialFit& fit, const Bench& bench, const CouponFi
 std::vector<CouponComparison> compare_coupons(const MaterialFit& fit, const Fabric& fabric, int cells,
                                               int points, ThreadTeam& team);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline calibration

@@ -9,7 +9,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/fsi/uniform_pressure_opening.h"
 
-namespace ripstop {
+namespace ripstop::inline calibration {
 
 double misfit_of(const DampingTrial& trial, const DampingTarget& target) {
   const double peak = trial.peak / target.peak - 1;
@@ -103,4 +103,4 @@ DampingCalibration calibrate_damping(const DampingTarget& target, const DampingS
   return result;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline calibration

@@ -8,7 +8,7 @@
 #include "ripstop/fsi/opening.h"
 #include "ripstop/fsi/summary.h"
 
-namespace ripstop {
+namespace ripstop::inline calibration {
 
 struct DampingTarget {
   double peak = 0;                       // measured [N]
@@ -55,4 +55,4 @@ DampingCalibration calibrate_damping(const DampingTarget& target, const DampingS
                                      const std::function<DampingTrial(double damping)>& open,
                                      const std::function<void(const DampingTrial&)>& report = {});
 
-}  // namespace ripstop
+}  // namespace ripstop::inline calibration

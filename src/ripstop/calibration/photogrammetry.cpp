@@ -8,7 +8,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/toml/read.h"
 
-namespace ripstop {
+namespace ripstop::inline calibration {
 namespace {
 
 double squares(const std::vector<KnownDiameter>& diameters, double distance) {
@@ -131,4 +131,4 @@ CorrectedImage correct(const Image& image) {
   return result;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline calibration

@@ -9,7 +9,7 @@
 
 #include "ripstop/core/toml/fields.h"
 
-namespace ripstop {
+namespace ripstop::inline calibration {
 
 /// Eq. 21: D_P = D_AP + L tan(asin(D_AP / L)) - D_AP = D_AP / sqrt(1 - (D_AP / L)^2): the camera at distance
 /// L sees the tangents to the canopy, not its diameter. Throws Error(bad_data) unless 0 < D_AP < L.
@@ -58,4 +58,4 @@ struct CorrectedImage {
 /// Lengths are corrected with the largest corrected diameter.
 CorrectedImage correct(const Image& image);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline calibration

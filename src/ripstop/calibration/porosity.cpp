@@ -8,7 +8,7 @@
 
 #include "ripstop/core/error.h"
 
-namespace ripstop {
+namespace ripstop::inline calibration {
 namespace {
 
 /// Drag area over the knob, averaged over the shifts, as straight pieces.
@@ -133,4 +133,4 @@ PorosityCalibration calibrate_porosity(const std::vector<MeasuredDrag>& measured
   return found;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline calibration

@@ -8,7 +8,7 @@
 #include "ripstop/core/least_squares.h"
 #include "ripstop/material/permeability.h"
 
-namespace ripstop {
+namespace ripstop::inline calibration {
 
 /// The calibrated quantity.
 enum class PorosityKnob {
@@ -58,4 +58,4 @@ struct PorosityCalibration {
 PorosityCalibration calibrate_porosity(const std::vector<MeasuredDrag>& measured,
                                        const std::vector<PorosityTrial>& trials, double reference_area);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline calibration

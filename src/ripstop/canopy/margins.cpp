@@ -4,7 +4,7 @@
 
 #include "ripstop/material/spring_law.h"
 
-namespace ripstop {
+namespace ripstop::inline canopy {
 namespace {
 
 struct Strength {
@@ -77,4 +77,4 @@ const Margin* weakest(const Margins& margins) {
   return least;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline canopy

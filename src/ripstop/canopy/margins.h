@@ -8,7 +8,7 @@
 
 #include "ripstop/material/material.h"
 
-namespace ripstop {
+namespace ripstop::inline canopy {
 
 /// [margins] of a case file; sources are given with the keys (case/flight_keys.cpp).
 struct MarginFactors {
@@ -70,4 +70,4 @@ Margins margins_of(const MemberLoads& loads, const MarginFactors& factors, const
 /// The weakest member; null when no strength is known.
 const Margin* weakest(const Margins& margins);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline canopy

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <unordered_map>
 
-namespace ripstop {
+namespace ripstop::inline canopy {
 namespace {
 
 constexpr double same_place = 1e-7;  // of the size of the canopy
@@ -109,4 +109,4 @@ double mirror_gap(const Mesh& mesh, const MirrorImages& images, const std::vecto
   return worst;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline canopy

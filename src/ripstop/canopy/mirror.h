@@ -7,7 +7,7 @@
 
 #include "ripstop/mesh/mesh.h"
 
-namespace ripstop {
+namespace ripstop::inline canopy {
 
 /// Of each node, the node at its mirror image: in the plane x = 0, and in the plane y = 0.
 using MirrorImages = std::array<std::vector<int>, 2>;
@@ -19,4 +19,4 @@ std::optional<MirrorImages> mirror_images(const Mesh& mesh);
 /// Largest distance of a node of the cloth from the image of its image [m].
 double mirror_gap(const Mesh& mesh, const MirrorImages& images, const std::vector<Vec3>& positions);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline canopy

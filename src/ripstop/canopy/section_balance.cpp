@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace ripstop {
+namespace ripstop::inline canopy {
 namespace {
 
 using std::numbers::pi;
@@ -109,4 +109,4 @@ double largest_section_gap(const Mesh& mesh, const Cloth& cloth, const ClothStat
   return largest;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline canopy

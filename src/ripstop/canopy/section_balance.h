@@ -6,7 +6,7 @@
 
 #include "ripstop/cloth/cloth.h"
 
-namespace ripstop {
+namespace ripstop::inline canopy {
 
 /// Means over the sections z = constant near a height: forces along z on the part below by the part above,
 /// moments about the axis x = y = 0. Near a height is within `reach` of it, nearer ones with more weight (a
@@ -31,4 +31,4 @@ SectionBalance section_balance(const Mesh& mesh, const Cloth& cloth, const Cloth
 double largest_section_gap(const Mesh& mesh, const Cloth& cloth, const ClothState& state,
                            const std::vector<Vec3>& load);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline canopy

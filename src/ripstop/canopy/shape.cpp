@@ -7,7 +7,7 @@
 
 #include "ripstop/core/checked_int.h"
 
-namespace ripstop {
+namespace ripstop::inline canopy {
 namespace {
 
 using std::numbers::pi;
@@ -151,4 +151,4 @@ std::map<std::string, double> image_sizes(const CanopyMesh& mesh, const std::vec
   return sizes;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline canopy

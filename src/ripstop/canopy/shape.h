@@ -8,7 +8,7 @@
 #include "ripstop/core/vec3.h"
 #include "ripstop/parachute/canopy_mesh.h"
 
-namespace ripstop {
+namespace ripstop::inline canopy {
 
 /// Diameters of circles with the same area as the outline of the whole cloth and of the
 /// skirt, seen along z [m].
@@ -40,4 +40,4 @@ std::vector<ProfileRing> canopy_profile(const CanopyMesh& mesh, const std::vecto
 /// D_st (skirt), D_mid (the largest row) and L_tot.
 std::map<std::string, double> image_sizes(const CanopyMesh& mesh, const std::vector<Vec3>& positions);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline canopy

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ripstop {
+namespace ripstop::inline canopy {
 namespace {
 
 /// Mean and largest of strains with weights.
@@ -181,4 +181,4 @@ std::map<std::string, Strains> part_strains(const CanopyMesh& mesh, const std::v
   return strains;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline canopy

@@ -8,7 +8,7 @@
 #include "ripstop/cloth/cloth.h"
 #include "ripstop/parachute/canopy_mesh.h"
 
-namespace ripstop {
+namespace ripstop::inline canopy {
 
 struct LineTension {
   int number = 0;  // of the line, from 1; of the apex line where `apex`
@@ -63,4 +63,4 @@ struct Strains {
 /// that each represents). Parts that the mesh does not have are omitted.
 std::map<std::string, Strains> part_strains(const CanopyMesh& mesh, const std::vector<Vec3>& positions);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline canopy

@@ -12,7 +12,7 @@
 #include "ripstop/flow/projections.h"
 #include "ripstop/flow/symmetry.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 
 CanopyMesh parachute_mesh(const Settings& resolved) {
   return parachute_mesh(resolved.parachute(), resolved);
@@ -102,4 +102,4 @@ SteadyProblem steady_problem(const Settings& resolved) {
   return problem;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

@@ -7,7 +7,7 @@
 #include "ripstop/fsi/steady_loop.h"
 #include "ripstop/parachute/build.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 
 /// The canopy's start shape with its skirt at flow.canopy_position_m, axis on x = y = 0, inlet at z = 0. With a
 /// `design` in place of the settings' own: of that, of the same materials.
@@ -19,4 +19,4 @@ FlowProblem flow_problem(const Settings& resolved);
 void require_axial_stream(const FlowSettings& flow, const char* what);
 SteadyProblem steady_problem(const Settings& resolved);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

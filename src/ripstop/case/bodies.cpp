@@ -14,7 +14,7 @@
 #include "ripstop/flow/extent.h"
 #include "ripstop/flow/stl.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 namespace {
 
 constexpr double largest = 100;  // [m]
@@ -167,4 +167,4 @@ void require_canopy_alone(const Settings& resolved, const char* what) {
                   resolved.written().bodies.begin()->first, what));
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

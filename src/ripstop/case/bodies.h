@@ -10,12 +10,18 @@
 #include "ripstop/material/material.h"
 
 namespace ripstop {
-
 class Fields;
 class Findings;
+}  // namespace ripstop
+
+namespace ripstop::inline parachute {
+struct Design;
+}
+
+namespace ripstop::inline cases {
+
 class Settings;
 struct Case;
-struct Design;
 
 struct SphereKeys {
   double diameter_m = 0;
@@ -68,4 +74,4 @@ std::vector<FlowBody> rigid_bodies(const Settings& resolved);
 /// Throws Error(usage) for a case with bodies: `what` computes the canopy alone.
 void require_canopy_alone(const Settings& resolved, const char* what);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

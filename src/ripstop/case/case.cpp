@@ -7,7 +7,7 @@
 #include "ripstop/core/toml/fields.h"
 #include "ripstop/flight/atmosphere.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 namespace {
 
 template <class Kind>
@@ -114,4 +114,4 @@ const Tape* reinforcement_tape(const Case& given) {
   return name == no_tape ? nullptr : &material<Tape>(given, name);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

@@ -23,7 +23,7 @@
 #include "ripstop/material/material.h"
 #include "ripstop/parachute/design.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 
 enum class SpeedBasis { nominal, measured };
 enum class Convection { upwind, second_order };
@@ -225,4 +225,4 @@ const Line& reefing_line(const Case& given, const ReefingStage& stage);
 /// Null where the parachute has none.
 const Tape* reinforcement_tape(const Case& given);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

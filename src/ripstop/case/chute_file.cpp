@@ -14,7 +14,7 @@
 #include "ripstop/core/expression.h"
 #include "ripstop/core/toml/read.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 namespace {
 
 using Json = nlohmann::json;
@@ -403,4 +403,4 @@ ChuteFile read_chute(std::string_view text, const std::string& file) {
   return Reader({&json, "", &file}).read();
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace ripstop {
+namespace ripstop::inline cases {
 
 /// In the meridian's plane [m]: distance from the axis, and height (toward the vent).
 struct MeridianPoint {
@@ -43,4 +43,4 @@ struct ChuteFile {
 /// a value.
 ChuteFile read_chute(std::string_view text, const std::string& file);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

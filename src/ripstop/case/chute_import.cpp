@@ -18,7 +18,7 @@
 #include "ripstop/parachute/flat_circular.h"
 #include "ripstop/parachute/profile.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 namespace {
 
 using std::numbers::pi;
@@ -441,4 +441,4 @@ ImportedCase import_chute(const ChuteFile& file, const ChuteImportOptions& optio
                           fmt::join(places, ", "), direct.type, problem));
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

@@ -7,7 +7,7 @@
 #include "ripstop/case/chute_file.h"
 #include "ripstop/case/imported_case.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 
 /// Data that the file does not contain.
 struct ChuteImportOptions {
@@ -25,4 +25,4 @@ struct ChuteImportOptions {
 ImportedCase import_chute(const ChuteFile& file, const ChuteImportOptions& options,
                           const std::string& source);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

@@ -10,7 +10,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/flow/openfoam/openfoam.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 namespace {
 
 // Measured with the built-in engine: 0.97 GB for 1.5 million cells and 26,000 nodes.
@@ -93,4 +93,4 @@ void require_cloth_memory(const Design& design) {
   require_memory(bytes_a_node * nodes, fmt::format("a mesh of {:.3g} nodes", nodes));
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

@@ -5,7 +5,7 @@
 
 #include "ripstop/case/settings.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 
 struct Cost {
   double nodes = 0;         // of cloth, lines and riser
@@ -26,4 +26,4 @@ void require_memory(double bytes, const std::string& what);
 /// The same for all that computes the canopy of a design alone.
 void require_cloth_memory(const Design& design);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

@@ -15,7 +15,7 @@
 #include "ripstop/parachute/cross.h"
 #include "ripstop/parachute/fold.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 namespace {
 
 // Usual values of an empty [deployment] (assumed).
@@ -151,4 +151,4 @@ std::optional<Deployment> deployment_of(const Settings& resolved) {
   return deploy_parachute(packed_parachute(resolved));
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

@@ -4,7 +4,7 @@
 #include "ripstop/case/settings.h"
 #include "ripstop/flight/deployment.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 
 /// The parts that stretch between canopy and payload, from the skirt on: lines, riser, and hardware with a stiffness.
 std::vector<SnatchPart> stretching_parts(const Settings& resolved);
@@ -21,4 +21,4 @@ std::optional<Deployment> deployment_of(const Settings& resolved);
 /// of the nominal diameter and the smallest multiple of the lines that allows it.
 void close_mouth(const Design& design, InflationSettings& inflation);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

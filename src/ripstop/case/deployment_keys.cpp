@@ -2,7 +2,7 @@
 #include "ripstop/case/case.h"
 #include "ripstop/core/toml/fields.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 namespace {
 
 void describe_container(Fields& fields, DeploymentKeys& keys) {
@@ -58,4 +58,4 @@ void describe(Fields& fields, DeploymentKeys& keys) {
   describe_extraction(fields, keys);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

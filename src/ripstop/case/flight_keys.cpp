@@ -3,7 +3,7 @@
 #include "ripstop/core/toml/fields.h"
 #include "ripstop/flight/atmosphere.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 
 void describe(Fields& fields, PayloadKeys& payload) {
   fields
@@ -120,4 +120,4 @@ void describe(Fields& fields, Hardware& part) {
       .absent("the part does not stretch");
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

@@ -7,7 +7,7 @@
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flow/boundaries.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 namespace {
 
 template <class Value>
@@ -311,4 +311,4 @@ void describe(Fields& fields, CouplingKeys& coupling) {
                  "Number of threads of the cloth solver; 0: one per core.");
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

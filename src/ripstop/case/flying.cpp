@@ -16,7 +16,7 @@
 #include "ripstop/flight/descent.h"
 #include "ripstop/parachute/fold.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 namespace {
 
 constexpr double growth = 1.2;  // of the cells outside of the core: a coarse grid in a wide box
@@ -210,4 +210,4 @@ FlightProblem flight_problem(const Settings& flight, const OpeningEnd& end, int 
   return problem;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

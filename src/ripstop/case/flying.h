@@ -6,7 +6,7 @@
 #include "ripstop/case/settings.h"
 #include "ripstop/fsi/free_flight.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 
 /// The case on the mesh of an opening, without a given speed, in a far field and on cells as coarse as [flight] has
 /// them where the case gives none. Throws Error(usage) without payload.mass_kg and for cases that cannot fly.
@@ -22,4 +22,4 @@ FlightProblem flight_problem(const Settings& flight, std::vector<Vec3> shape, st
 /// From the end of an opening.
 FlightProblem flight_problem(const Settings& flight, const OpeningEnd& end, int threads);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

@@ -2,7 +2,7 @@
 
 #include "ripstop/core/visible.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 
 std::string toml_quoted(const std::string& text, std::size_t longest) {
   std::string whole = visible_line(text);
@@ -19,4 +19,4 @@ std::string toml_quoted(const std::string& text, std::size_t longest) {
   return '"' + result + '"';
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace ripstop {
+namespace ripstop::inline cases {
 
 /// Every sentence of the report belongs to one list; the content of the file is in the first three.
 struct ImportedCase {
@@ -20,4 +20,4 @@ struct ImportedCase {
 /// Quoted as TOML has it, without control characters, and cut at `longest` bytes.
 std::string toml_quoted(const std::string& text, std::size_t longest);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

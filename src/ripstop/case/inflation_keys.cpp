@@ -2,7 +2,7 @@
 #include "ripstop/case/case.h"
 #include "ripstop/core/toml/fields.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 namespace {
 
 /// The folded start.
@@ -154,4 +154,4 @@ void describe(Fields& fields, InflationSettings& inflation) {
               "order; after the last one the canopy opens fully.");
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

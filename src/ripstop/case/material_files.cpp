@@ -9,7 +9,7 @@
 #include "ripstop/core/toml/problem.h"
 #include "ripstop/core/toml/read.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 namespace {
 
 namespace fs = std::filesystem;
@@ -110,4 +110,4 @@ std::map<std::string, Material> take_material_files(Document& document,
   return MaterialFiles(document, settings).take();
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

@@ -8,7 +8,7 @@
 #include "ripstop/core/toml/set.h"
 #include "ripstop/material/library.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 
 /// Reads the materials that parachute and reefing name by a path ("my-cloth.toml", relative to the case file; of a
 /// setting also to the working folder), or that lie in the folder `materials` next to the case file, and replaces each
@@ -16,4 +16,4 @@ namespace ripstop {
 /// the library. Throws InputError(usage) for a path without a file or a name that is taken, and as read_material().
 std::map<std::string, Material> take_material_files(Document& document, const std::vector<Setting>& settings);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

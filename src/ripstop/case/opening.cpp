@@ -15,7 +15,7 @@
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/fsi/pressure.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 namespace {
 
 // The equilibrium that turns a drag into a pressure is found on a mesh of at most so many nodes: its area
@@ -125,4 +125,4 @@ InflationProblem opening_problem(const Settings& opening, const LoadSource& sour
   return problem;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

@@ -8,7 +8,7 @@
 #include "ripstop/case/settings.h"
 #include "ripstop/fsi/opening.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 
 /// Where the pressure came from.
 struct LoadSource {
@@ -27,4 +27,4 @@ LoadSource load_source(const Settings& opening);
 InflationProblem opening_problem(const Settings& opening, const LoadSource& source, int threads,
                                  const std::function<void()>& alive = {});
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

@@ -14,7 +14,7 @@
 #include "ripstop/core/table/text.h"
 #include "ripstop/core/visible.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 namespace {
 
 constexpr int deepest_component = 200;  // components inside components
@@ -220,4 +220,4 @@ OpenRocketFile read_openrocket(const std::filesystem::path& path) {
   return OpenRocketReader(path).run();
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace ripstop {
+namespace ripstop::inline cases {
 
 /// A part of a file may be absent; numbers are in SI.
 struct RecoveryDevice {
@@ -41,4 +41,4 @@ struct OpenRocketFile {
 /// Error(bad_data) with file, line, device, element and value.
 OpenRocketFile read_openrocket(const std::filesystem::path& path);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

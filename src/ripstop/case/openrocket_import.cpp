@@ -10,7 +10,7 @@
 #include "ripstop/core/units.h"
 #include "ripstop/core/visible.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 namespace {
 
 using std::numbers::pi;
@@ -259,4 +259,4 @@ ImportedCase import_openrocket(const OpenRocketFile& file, const RecoveryDevice&
   return OpenRocketImporter(file, device, options, source).run();
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

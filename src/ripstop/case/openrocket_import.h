@@ -7,7 +7,7 @@
 #include "ripstop/case/imported_case.h"
 #include "ripstop/case/openrocket_file.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 
 /// The diameter that a file gives: of the cloth laid flat, as OpenRocket defines it, or of the open canopy, as
 /// makers often state it together with a drag coefficient on the projected area.
@@ -32,4 +32,4 @@ const RecoveryDevice& choose_device(const OpenRocketFile& file, const std::strin
 ImportedCase import_openrocket(const OpenRocketFile& file, const RecoveryDevice& device,
                                const OpenRocketImportOptions& options, const std::string& source);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

@@ -10,7 +10,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 namespace {
 
 [[noreturn]] void refuse_archive(const std::filesystem::path& path, const std::string& reason) {
@@ -81,4 +81,4 @@ std::string openrocket_text_of(const std::filesystem::path& path, std::size_t li
   return bytes;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

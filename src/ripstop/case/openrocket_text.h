@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-namespace ripstop {
+namespace ripstop::inline cases {
 
 inline constexpr std::size_t largest_openrocket_text = std::size_t{64} << 20;
 
@@ -13,4 +13,4 @@ inline constexpr std::size_t largest_openrocket_text = std::size_t{64} << 20;
 std::string openrocket_text_of(const std::filesystem::path& path,
                                std::size_t limit = largest_openrocket_text);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

@@ -6,7 +6,7 @@
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/descent.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 
 CutPattern cut_pattern(const Settings& resolved) {
   CutPattern pattern = cut_pattern(resolved.parachute());
@@ -61,4 +61,4 @@ double usual_deployment_speed(double descent_rate) {
   return std::max(20.0, 3 * descent_rate);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

@@ -4,7 +4,7 @@
 #include "ripstop/case/settings.h"
 #include "ripstop/parachute/cut.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 
 /// Masses of a parachute's parts [kg].
 struct PartMasses {
@@ -32,4 +32,4 @@ double usual_deployment_speed(double descent_rate);
 /// Of `payload` [kg] and its parachute; the drag of the canopy carries both [N].
 double suspended_weight(const Settings& resolved, double payload);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

@@ -5,7 +5,7 @@
 
 #include "ripstop/core/quantity_error.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 
 const std::vector<std::pair<std::string, std::string>>& quantity_keys() {
   static const std::vector<std::pair<std::string, std::string>> keys = {
@@ -62,4 +62,4 @@ std::string message_of(const Error& error) {
   return text;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

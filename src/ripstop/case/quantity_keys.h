@@ -7,7 +7,7 @@
 
 #include "ripstop/core/error.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 
 /// Name of each quantity and the key that sets it.
 const std::vector<std::pair<std::string, std::string>>& quantity_keys();
@@ -19,4 +19,4 @@ const std::string& key_of_quantity(const std::string& quantity);
 /// std::out_of_range for a quantity without a key.
 std::string message_of(const Error& error);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

@@ -11,7 +11,7 @@
 #include "ripstop/case/case.h"
 #include "ripstop/case/material_files.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 namespace {
 
 /// Returns the keys that were set.
@@ -146,4 +146,4 @@ void apply(const Overrides& overrides, Case& given) {
   given = checked(std::move(changed));
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

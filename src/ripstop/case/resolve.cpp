@@ -12,7 +12,7 @@
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flow/engines.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 namespace {
 
 constexpr double least_box_over_core = 2;  // a core that fills more of the box than half of it gains little
@@ -353,4 +353,4 @@ FlowGrid flow_grid(const FlowSettings& flow) {
   return core_from(off * cell.x, 0.5 * off * cell.y);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

@@ -4,7 +4,7 @@
 
 #include "ripstop/case/settings.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 
 /// Defaults that follow from the porosity model alone; docs/guide/case-file.md, Air through the cloth.
 struct ModelDefaults {
@@ -59,4 +59,4 @@ inline constexpr double jet_outside_speed = 0.02, jet_shear_layer = 0.1;  // the
 /// resolve() without the materials of lines and riser, for the checks of a case that may lack them.
 SettingsValues settings_values(const Case& given);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

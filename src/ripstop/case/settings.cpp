@@ -7,7 +7,7 @@
 #include "ripstop/case/resolve.h"
 #include "ripstop/flow/engines.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 
 namespace {
 
@@ -71,4 +71,4 @@ bool same_flow(const FlowSettings& a, const FlowSettings& b) {
   return a == other;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

@@ -9,7 +9,7 @@
 #include "ripstop/case/case.h"
 #include "ripstop/parachute/build.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 
 struct CoreSettings {
   Vec3 size_m;         // 0: the cells are uniform along that axis
@@ -133,4 +133,4 @@ bool same_flow(const FlowSettings& a, const FlowSettings& b);
 std::string case_toml(const Settings& resolved);
 std::string case_json(const Settings& resolved);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

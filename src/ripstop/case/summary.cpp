@@ -6,7 +6,7 @@
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/cost.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 namespace {
 
 void count_springs(const Mesh& mesh, CaseSummary& summary) {
@@ -64,4 +64,4 @@ CaseSummary summarize(const Settings& resolved) {
   return summary;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

@@ -7,7 +7,7 @@
 #include "ripstop/case/payload.h"
 #include "ripstop/cloth/cloth.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 
 struct CaseSummary {
   double cloth_area = 0;                // as meshed, a polygon inside the cut cloth [m2]
@@ -34,4 +34,4 @@ struct CaseSummary {
 /// Builds the mesh and the cloth, and throws their exceptions.
 CaseSummary summarize(const Settings& resolved);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

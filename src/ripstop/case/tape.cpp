@@ -10,7 +10,7 @@
 #include "ripstop/flight/descent.h"
 #include "ripstop/parachute/cut.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 namespace {
 
 constexpr double hem_width = Allowances{}.hem;  // of cloth turned over along an edge [m]
@@ -86,4 +86,4 @@ TapeMaterial tape_material(const Case& given) {
   return tape;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

@@ -6,7 +6,7 @@
 
 #include "ripstop/case/case.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 
 struct TapeMaterial {
   std::string name;  // of given.materials, or no_tape
@@ -24,4 +24,4 @@ TapeMaterial tape_material(const Case& given);
 /// does, else the strongest.
 TapeMaterial tape_for(const Case& given, double line_load);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

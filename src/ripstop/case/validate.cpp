@@ -10,7 +10,7 @@
 #include "ripstop/core/toml/read.h"
 #include "ripstop/flight/atmosphere.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 namespace {
 
 constexpr double most_cells = 2e8;         // about 200 GB in the flow solver
@@ -482,4 +482,4 @@ Case checked(Case given, std::vector<Problem> known) {
   return given;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

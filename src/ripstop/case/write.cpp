@@ -4,7 +4,7 @@
 #include "ripstop/case/settings.h"
 #include "ripstop/core/build_info.h"
 
-namespace ripstop {
+namespace ripstop::inline cases {
 namespace {
 
 Fields fields_of(Case& bound) {
@@ -39,4 +39,4 @@ std::string case_reference() {
          reference_tables(fields_of(scratch));
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cases

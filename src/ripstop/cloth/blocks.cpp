@@ -11,7 +11,7 @@
 
 #include "ripstop/mesh/each_spring.h"
 
-namespace ripstop {
+namespace ripstop::inline cloth {
 namespace {
 
 // Of cloth: their matrix is multiplied in every step and costs a tenth of it.
@@ -281,4 +281,4 @@ void Blocks::spread(int chunk, const double* y, double kick, double* motion) con
       motion[axis * lanes + lane] = block[lane] >= 0 ? kick * y[axis * padded_ + block[lane]] : 0.0;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cloth

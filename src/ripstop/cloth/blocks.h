@@ -10,7 +10,7 @@
 #include "ripstop/cloth/layout.h"
 #include "ripstop/core/thread_team.h"
 
-namespace ripstop {
+namespace ripstop::inline cloth {
 
 class Blocks {
  public:
@@ -85,4 +85,4 @@ class Blocks {
   std::vector<int> block_of_node_;  // see block_of()
 };
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cloth

@@ -13,7 +13,7 @@
 #include "ripstop/core/vec3.h"
 #include "ripstop/mesh/mesh.h"
 
-namespace ripstop {
+namespace ripstop::inline cloth {
 
 /// Cloth does not pass through cloth (docs/theory/cloth.md): nodes of different places of it push each other apart.
 struct ContactOptions {
@@ -163,4 +163,4 @@ double elastic_energy(const Cloth& cloth, const ClothState& state);  // [J]
 double kinetic_energy(const Cloth& cloth, const ClothState& state);  // [J]
 Vec3 momentum(const Cloth& cloth, const ClothState& state);          // [kg m/s]
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cloth

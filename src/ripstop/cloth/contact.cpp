@@ -6,7 +6,7 @@
 
 #include "ripstop/cloth/layout.h"
 
-namespace ripstop {
+namespace ripstop::inline cloth {
 namespace {
 
 constexpr double thickness = 0.75;         // d, in spacings
@@ -239,4 +239,4 @@ ContactReport contact_report(const Cloth& cloth, const ClothState& state) {
   return Contact(*cloth.contact, 1).report(state);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cloth

@@ -15,7 +15,7 @@
 #include "ripstop/cloth/cloth.h"
 #include "ripstop/core/thread_team.h"
 
-namespace ripstop {
+namespace ripstop::inline cloth {
 
 /// Data that do not change: compiled once with the cloth. Arrays by node of the cells unless stated
 /// otherwise.
@@ -90,4 +90,4 @@ class Contact {
   std::vector<double> lost_;  // by mover [J]
 };
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cloth

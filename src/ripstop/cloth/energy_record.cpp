@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace ripstop {
+namespace ripstop::inline cloth {
 namespace {
 
 // For the work of the pressure: the cloth moves a fraction of a cell meanwhile.
@@ -183,4 +183,4 @@ void EnergyRecord::finish() {
   for (const double work : row_work_) record_.pressure_work += work;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cloth

@@ -6,7 +6,7 @@
 
 #include "ripstop/cloth/forces.h"
 
-namespace ripstop {
+namespace ripstop::inline cloth {
 
 class EnergyRecord {
  public:
@@ -62,4 +62,4 @@ class EnergyRecord {
   std::vector<int> fixed_;                                     // irregular nodes that are fixed
 };
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cloth

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace ripstop {
+namespace ripstop::inline cloth {
 namespace {
 
 // Cost of an irregular node over that of a vector of the lattice (measured on Stratos IV, AVX-512).
@@ -173,4 +173,4 @@ double Forces::damper_power_at(int rank, int row, const AlignedDoubles& position
                          unwanted});
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cloth

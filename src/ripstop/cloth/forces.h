@@ -14,7 +14,7 @@
 #include "ripstop/cloth/layout.h"
 #include "ripstop/core/thread_team.h"
 
-namespace ripstop {
+namespace ripstop::inline cloth {
 
 class Forces {
  public:
@@ -142,4 +142,4 @@ void Forces::for_irregular_nodes(int rank, const Visit& visit) const {
           cloth_.row_count + block);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cloth

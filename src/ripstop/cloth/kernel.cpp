@@ -8,7 +8,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace ripstop {
+namespace ripstop::inline cloth {
 namespace HWY_NAMESPACE {
 namespace {
 
@@ -413,11 +413,11 @@ const char* Target() {
 
 }  // namespace
 }  // namespace HWY_NAMESPACE
-}  // namespace ripstop
+}  // namespace ripstop::inline cloth
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace ripstop {
+namespace ripstop::inline cloth {
 
 HWY_EXPORT(AddRowForces);
 HWY_EXPORT(PullSprings);
@@ -449,5 +449,5 @@ const char* kernel_target() {
   return HWY_DYNAMIC_DISPATCH(Target)();
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cloth
 #endif

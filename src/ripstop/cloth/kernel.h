@@ -5,7 +5,7 @@
 
 #include "ripstop/cloth/layout.h"
 
-namespace ripstop {
+namespace ripstop::inline cloth {
 
 /// Forces of all springs that belong to a row (toward columns + 1, + 2 and rows + 1, + 2) and of the pressure
 /// on the cells between it and the next. f0 and f1 are added to, f2 is overwritten.
@@ -110,4 +110,4 @@ void multiply_blocks(const BlockProduct& job, int begin, int end);
 /// "AVX-512", "AVX2", "SSE4", "scalar": instruction set of the kernels on this processor.
 const char* kernel_target();
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cloth

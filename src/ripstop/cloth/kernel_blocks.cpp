@@ -8,7 +8,7 @@
 #include "ripstop/cloth/kernel.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace ripstop {
+namespace ripstop::inline cloth {
 namespace HWY_NAMESPACE {
 namespace {
 
@@ -82,11 +82,11 @@ void MultiplyBlocks(const BlockProduct& job, int begin, int end) {
 
 }  // namespace
 }  // namespace HWY_NAMESPACE
-}  // namespace ripstop
+}  // namespace ripstop::inline cloth
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace ripstop {
+namespace ripstop::inline cloth {
 
 HWY_EXPORT(SumBlocks);
 HWY_EXPORT(MoveBlocks);
@@ -102,5 +102,5 @@ void multiply_blocks(const BlockProduct& job, int begin, int end) {
   HWY_DYNAMIC_DISPATCH(MultiplyBlocks)(job, begin, end);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cloth
 #endif

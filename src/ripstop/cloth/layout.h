@@ -19,7 +19,7 @@
 #include "ripstop/cloth/cloth.h"
 #include "ripstop/core/aligned.h"
 
-namespace ripstop {
+namespace ripstop::inline cloth {
 
 inline constexpr int lanes = 8;
 inline constexpr int ghosts = 2;
@@ -161,4 +161,4 @@ AlignedDoubles compile_node_force(const Cloth& cloth, const Loads& loads);
 /// "disk (row 3, column 14)" or "line 7": where a node is, for messages.
 std::string place_of(const Mesh& mesh, int node);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cloth

@@ -8,7 +8,7 @@
 #include "ripstop/cloth/layout.h"
 #include "ripstop/core/error.h"
 
-namespace ripstop {
+namespace ripstop::inline cloth {
 namespace {
 
 void refuse(const std::string& message) {
@@ -412,4 +412,4 @@ std::string place_of(const Mesh& mesh, int node) {
   return "outside all patches";
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cloth

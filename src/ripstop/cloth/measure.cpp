@@ -9,7 +9,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/mesh/each_spring.h"
 
-namespace ripstop {
+namespace ripstop::inline cloth {
 namespace {
 
 double tension_of(const SpringView& s, const std::vector<Vec3>& x) {
@@ -158,4 +158,4 @@ Vec3 momentum(const Cloth& cloth, const ClothState& state) {
   return sum;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cloth

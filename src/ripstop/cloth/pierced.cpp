@@ -11,7 +11,7 @@
 #include "ripstop/cloth/layout.h"
 #include "ripstop/core/error.h"
 
-namespace ripstop {
+namespace ripstop::inline cloth {
 namespace {
 
 constexpr double neighbourhood = 3;  // edges: cells that are closer on the cloth may touch
@@ -110,4 +110,4 @@ double pierced_share(const Mesh& mesh, const std::vector<Vec3>& x) {
   return static_cast<double>(count) / static_cast<double>(edges.size());
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cloth

@@ -2,7 +2,7 @@
 
 #include <Eigen/Dense>
 
-namespace ripstop {
+namespace ripstop::inline cloth {
 namespace {
 
 // Solves sum weight (r^2 I - r r^T) w = moment.
@@ -61,4 +61,4 @@ void cancel_moment(const Cloth& cloth, const ClothState& state, Vec3 moment, Vec
     if (free(node)) force[node] -= cross(t, arm(node));
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cloth

@@ -7,7 +7,7 @@
 
 #include "ripstop/cloth/stability_limit.h"
 
-namespace ripstop {
+namespace ripstop::inline cloth {
 
 /// The point, when all fixed nodes coincide.
 std::optional<Vec3> pivot_of(const Cloth& cloth, const ClothState& state);
@@ -20,4 +20,4 @@ void stop_turning(const Cloth& cloth, ClothState& state, const std::vector<Symme
 void cancel_moment(const Cloth& cloth, const ClothState& state, Vec3 moment, Vec3 pivot,
                    std::vector<Vec3>& force);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cloth

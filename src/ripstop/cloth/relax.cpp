@@ -41,7 +41,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/mesh/each_spring.h"
 
-namespace ripstop {
+namespace ripstop::inline cloth {
 namespace {
 
 constexpr double margin = 1.2;            // on the masses, for stiffening between two refreshes
@@ -484,4 +484,4 @@ RelaxResult watched_relax(ClothState& state, const Cloth& cloth, const Loads& lo
   return result;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cloth

@@ -4,7 +4,7 @@
 
 #include "ripstop/core/thread_team.h"
 
-namespace ripstop {
+namespace ripstop::inline cloth {
 namespace {
 
 // t / (t + 3) of the velocity remains t steps after a stop, see relax.cpp.
@@ -184,4 +184,4 @@ RowSums RelaxationStep::sums() const {
   return total;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cloth

@@ -9,7 +9,7 @@
 #include "ripstop/cloth/forces.h"
 #include "ripstop/cloth/stability_limit.h"
 
-namespace ripstop {
+namespace ripstop::inline cloth {
 
 struct FictitiousMasses {
   std::vector<Symmetric> inverse;  // by node; 0: does not move
@@ -70,4 +70,4 @@ class RelaxationStep {
   std::vector<Worker> workers_;
 };
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cloth

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <numeric>
 
-namespace ripstop {
+namespace ripstop::inline cloth {
 namespace {
 
 constexpr int most_images = 128;
@@ -279,4 +279,4 @@ std::optional<Sector> sector_of(const Mesh& mesh, const std::vector<Vec3>& start
   return Search(mesh, start).widest(loads);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cloth

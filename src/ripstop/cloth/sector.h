@@ -7,7 +7,7 @@
 
 #include "ripstop/cloth/stability_limit.h"
 
-namespace ripstop {
+namespace ripstop::inline cloth {
 
 struct Sector {
   Mesh mesh;  // starts where the canopy does
@@ -30,4 +30,4 @@ struct Sector {
 /// left out.
 std::optional<Sector> sector_of(const Mesh& mesh, const std::vector<Vec3>& start, const Loads& loads);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cloth

@@ -12,7 +12,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/mesh/each_spring.h"
 
-namespace ripstop {
+namespace ripstop::inline cloth {
 namespace {
 
 /// A drawstring shorter than this by its strain is not pulled before the bound is looked at again.
@@ -253,4 +253,4 @@ void check_health(const Cloth& cloth, const ClothState& state) {
                               state.steps, state.time, node, place_of(cloth.mesh, node)));
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cloth

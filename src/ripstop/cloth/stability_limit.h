@@ -7,7 +7,7 @@
 #include "ripstop/cloth/layout.h"
 #include "ripstop/core/thread_team.h"
 
-namespace ripstop {
+namespace ripstop::inline cloth {
 
 /// Symmetric 3 x 3: xx, yy, zz, xy, xz, yz.
 using Symmetric = std::array<double, 6>;
@@ -51,4 +51,4 @@ AppliedLoad applied_load(const Cloth& cloth, const ClothState& state, const Load
 /// Throws Error(diverged) for positions that are not finite.
 void check_health(const Cloth& cloth, const ClothState& state);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cloth

@@ -6,7 +6,7 @@
 #include "ripstop/cloth/layout.h"
 #include "ripstop/core/error.h"
 
-namespace ripstop {
+namespace ripstop::inline cloth {
 namespace {
 
 void set(AlignedDoubles& vectors, const Cloth& cloth, const std::vector<Vec3>& values, const char* what) {
@@ -97,4 +97,4 @@ std::vector<Vec3> velocities(const ClothState& state, const Cloth& cloth) {
   return values(state.v, cloth);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cloth

@@ -10,7 +10,7 @@
 #include "ripstop/cloth/stability_limit.h"
 #include "ripstop/core/error.h"
 
-namespace ripstop {
+namespace ripstop::inline cloth {
 namespace {
 
 constexpr long long steps_between_checks = 2048;  // of the stability limit, which costs as much as 40 steps
@@ -195,4 +195,4 @@ void step(ClothState& state, const Cloth& cloth, const Loads& loads, double dt, 
   steps.finish(record);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cloth

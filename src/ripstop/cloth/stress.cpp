@@ -5,7 +5,7 @@
 #include "ripstop/cloth/layout.h"
 #include "ripstop/mesh/each_spring.h"
 
-namespace ripstop {
+namespace ripstop::inline cloth {
 namespace {
 
 // Cells of one patch with cloth, and the springs that touch them.
@@ -176,4 +176,4 @@ std::vector<CellStress> cell_stress(const Cloth& cloth, const ClothState& state)
   return stress;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cloth

@@ -4,7 +4,7 @@
 #include "ripstop/cloth/stability_limit.h"
 #include "ripstop/core/vec3.h"
 
-namespace ripstop {
+namespace ripstop::inline cloth {
 
 /// Zero for a singular block.
 inline Symmetric inverse_of(const Symmetric& a) {
@@ -33,4 +33,4 @@ inline Symmetric held_beside(const Symmetric& p, const Symmetric& a) {
   return sum;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cloth

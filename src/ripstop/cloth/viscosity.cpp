@@ -3,7 +3,7 @@
 
 #include "ripstop/cloth/stability_limit.h"
 
-namespace ripstop {
+namespace ripstop::inline cloth {
 namespace {
 
 // lambda_max of the blocks of the dampers over the mass, tied nodes' handed on and taken back. [1/s]
@@ -77,4 +77,4 @@ ViscosityLimit limit_viscosity(Mesh& mesh, const ClothOptions& options, const st
   return limit;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cloth

@@ -6,7 +6,7 @@
 
 #include "ripstop/cloth/cloth.h"
 
-namespace ripstop {
+namespace ripstop::inline cloth {
 
 /// Called during a relaxation, outside of its threads; an exception ends the relaxation. `positions` returns those of
 /// all nodes, also while a sector of the canopy is solved; it is valid during the call only.
@@ -16,4 +16,4 @@ using RelaxWatch =
 RelaxResult watched_relax(ClothState& state, const Cloth& cloth, const Loads& loads,
                           const RelaxOptions& options, ThreadTeam& team, const RelaxWatch& watch);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline cloth

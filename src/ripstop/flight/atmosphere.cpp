@@ -8,7 +8,7 @@
 
 #include "ripstop/core/error.h"
 
-namespace ripstop {
+namespace ripstop::inline flight {
 namespace {
 
 // U.S. Standard Atmosphere, 1976 (NOAA-S/T 76-1562), Table 4: bottoms of the layers and their lapse rates.
@@ -81,4 +81,4 @@ double density_ratio(double height, double fallen) {
   return standard_air(std::max(height - fallen, lowest_height)).density / standard_air(height).density;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flight

@@ -3,7 +3,7 @@
 
 #include "ripstop/core/units.h"
 
-namespace ripstop {
+namespace ripstop::inline flight {
 
 /// Heights that standard_air() takes [m].
 inline constexpr double lowest_height = -2000, highest_height = 80000;
@@ -30,4 +30,4 @@ double standard_height(double density);
 /// Density `fallen` metres below `height` over that at `height` [m]; below lowest_height that of lowest_height.
 double density_ratio(double height, double fallen);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flight

@@ -12,7 +12,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/positive.h"
 
-namespace ripstop {
+namespace ripstop::inline flight {
 namespace {
 
 constexpr double longest_step = 1e-4;     // [s]
@@ -334,4 +334,4 @@ Deployment deploy_parachute(const PackedParachute& packed) {
   return Deployer(packed).run();
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flight

@@ -8,7 +8,7 @@
 #include "ripstop/core/members.h"
 #include "ripstop/flight/snatch.h"
 
-namespace ripstop {
+namespace ripstop::inline flight {
 
 /// Payload and packed parachute on one straight path. The bag is the container or the wrap of the canopy, with the
 /// pilot chute.
@@ -88,4 +88,4 @@ double emerged_mass(double mass, double whole, double length, bool skirt_first);
 /// and lengths that are not above 0, and where a line breaks.
 Deployment deploy_parachute(const PackedParachute& packed);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flight

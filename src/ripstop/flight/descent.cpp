@@ -8,7 +8,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/flight/atmosphere.h"
 
-namespace ripstop {
+namespace ripstop::inline flight {
 
 double terminal_speed(double mass, double drag_area, double density) {
   return std::sqrt(2 * mass * standard_gravity / (density * drag_area));
@@ -38,4 +38,4 @@ double descent_time(double mass, double drag_area, double from, double to) {
   return time;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flight

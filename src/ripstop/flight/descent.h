@@ -1,7 +1,7 @@
 // Steady descent: drag is weight, at every height with the density that is there.
 #pragma once
 
-namespace ripstop {
+namespace ripstop::inline flight {
 
 /// Speed at which the drag `drag_area` rho v^2 / 2 is the weight [m/s]. Arguments: [kg], [m2], [kg/m3].
 double terminal_speed(double mass, double drag_area, double density);
@@ -12,4 +12,4 @@ double drag_area_for(double mass, double speed, double density);
 /// integral of dh / v(h). Throws Error(usage) unless from > to and standard_air() takes both.
 double descent_time(double mass, double drag_area, double from, double to);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flight

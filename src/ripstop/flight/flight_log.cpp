@@ -9,7 +9,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/flight/atmosphere.h"
 
-namespace ripstop {
+namespace ripstop::inline flight {
 namespace {
 
 constexpr double shortest_descent = 10;    // [s]
@@ -341,4 +341,4 @@ FlightLog analyse_flight(const FlightRecords& records, const FlightLogSetup& set
   return FlightAnalysis(records, setup).run();
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flight

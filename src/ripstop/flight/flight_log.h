@@ -7,7 +7,7 @@
 
 #include "ripstop/core/members.h"
 
-namespace ripstop {
+namespace ripstop::inline flight {
 
 /// Samples of one sensor, times ascending; a dropped sample is left out.
 struct SensorRecord {
@@ -96,4 +96,4 @@ struct FlightLog {
 /// the difference exceeds five standard errors. Throws Error(bad_data) for a record without a descent of ten seconds.
 FlightLog analyse_flight(const FlightRecords& records, const FlightLogSetup& setup);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flight

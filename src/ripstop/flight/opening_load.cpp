@@ -11,7 +11,7 @@
 #include "ripstop/core/positive.h"
 #include "ripstop/flight/atmosphere.h"
 
-namespace ripstop {
+namespace ripstop::inline flight {
 
 void check_conditions(const OpeningConditions& c) {
   const std::pair<const char*, double> all[] = {{"mass (kg)", c.mass},
@@ -86,4 +86,4 @@ MomentumImpulse momentum_impulse_load(const OpeningConditions& c, double integra
   return result;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flight

@@ -2,7 +2,7 @@
 // of validity: docs/theory/opening-load.md.
 #pragma once
 
-namespace ripstop {
+namespace ripstop::inline flight {
 
 /// Input of all methods.
 struct OpeningConditions {
@@ -56,4 +56,4 @@ MomentumImpulse momentum_impulse_load(const OpeningConditions& c, double integra
 /// Throws Error(usage) that names the quantity that is not above 0.
 void check_conditions(const OpeningConditions& c);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flight

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace ripstop {
+namespace ripstop::inline flight {
 
 InPlane acceleration(const PointMass& body, InPlane velocity, double density, double drag_area, double pull) {
   const double speed = std::hypot(velocity.level, velocity.down);
@@ -15,4 +15,4 @@ Vec3 drag_force(Vec3 relative_velocity, double density, double drag_area) {
   return -0.5 * density * drag_area * norm(relative_velocity) * relative_velocity;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flight

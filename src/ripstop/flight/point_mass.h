@@ -3,7 +3,7 @@
 
 #include "ripstop/core/vec3.h"
 
-namespace ripstop {
+namespace ripstop::inline flight {
 
 /// A velocity [m/s] or an acceleration [m/s2]: along the ground, and downward.
 struct InPlane {
@@ -23,4 +23,4 @@ InPlane acceleration(const PointMass& body, InPlane velocity, double density, do
 /// -rho |v| v (C_D S) / 2 for a velocity v relative to the air [m/s] -> [N]
 Vec3 drag_force(Vec3 relative_velocity, double density, double drag_area);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flight

@@ -10,7 +10,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/positive.h"
 
-namespace ripstop {
+namespace ripstop::inline flight {
 namespace {
 
 double tension(const SnatchPart& part, double strain) {  // of one strand [N]
@@ -200,4 +200,4 @@ double speed_difference_at_stretch(const Coasting& payload, const Coasting& cano
   return speed / (1 + bp * speed * high) - speed / (1 + bc * speed * high);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flight

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace ripstop {
+namespace ripstop::inline flight {
 
 /// One of the parts that pull in a row: equal strands side by side with T(e) = sum K_k e^k each.
 struct SnatchPart {
@@ -48,4 +48,4 @@ struct Coasting {
 double speed_difference_at_stretch(const Coasting& payload, const Coasting& canopy, double speed,
                                    double density, double length);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flight

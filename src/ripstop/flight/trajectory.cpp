@@ -13,7 +13,7 @@
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/point_mass.h"
 
-namespace ripstop {
+namespace ripstop::inline flight {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -127,4 +127,4 @@ DragArea from_record(std::vector<double> distance, std::vector<double> drag_area
   };
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flight

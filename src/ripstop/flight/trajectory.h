@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-namespace ripstop {
+namespace ripstop::inline flight {
 
 struct FlightState {
   double time = 0;         // [s]
@@ -47,4 +47,4 @@ DragArea filling(double from, double to, double filling_time, double exponent, d
 /// last one. `distance` increases.
 DragArea from_record(std::vector<double> distance, std::vector<double> drag_area, double to);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flight

@@ -6,7 +6,7 @@
 
 #include "ripstop/core/error.h"
 
-namespace ripstop {
+namespace ripstop::inline flight {
 
 const std::vector<ValidRange>& valid_ranges() {
   constexpr double any = std::numeric_limits<double>::infinity();
@@ -46,4 +46,4 @@ std::vector<std::string> outside_range(const std::string& model, const std::vect
   return all;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flight

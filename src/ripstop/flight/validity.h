@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace ripstop {
+namespace ripstop::inline flight {
 
 struct ValidRange {
   const char* model;
@@ -30,4 +30,4 @@ struct ModelValue {
 /// no range for is ignored. Throws Error(usage) for a value above `refused_above`.
 std::vector<std::string> outside_range(const std::string& model, const std::vector<ModelValue>& values);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flight

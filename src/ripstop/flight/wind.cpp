@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace ripstop {
+namespace ripstop::inline flight {
 
 Vec3 wind_velocity(const Wind& wind, double height, double time) {
   double speed = wind.speed_m_s;
@@ -16,4 +16,4 @@ Vec3 wind_velocity(const Wind& wind, double height, double time) {
   return {speed * std::cos(direction), speed * std::sin(direction), 0};
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flight

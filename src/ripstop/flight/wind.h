@@ -3,7 +3,7 @@
 
 #include "ripstop/core/vec3.h"
 
-namespace ripstop {
+namespace ripstop::inline flight {
 
 /// Horizontal; z is up.
 struct Wind {
@@ -22,4 +22,4 @@ struct Wind {
 /// ground [m] and `time` [s] -> [m/s]. Below the ground as at it.
 Vec3 wind_velocity(const Wind& wind, double height, double time);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flight

@@ -1,6 +1,6 @@
 #include "ripstop/flow/average.h"
 
-namespace ripstop {
+namespace ripstop::inline flow {
 namespace {
 
 // m += share (x - m) for all that a field has means of; loses nothing to the size of the mean.
@@ -64,4 +64,4 @@ void FieldMean::take(const FlowField& field, const Cells& cells, int count) {
   mean_.average = {before + count, 0};
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

@@ -5,7 +5,7 @@
 
 #include "ripstop/flow/flow.h"
 
-namespace ripstop {
+namespace ripstop::inline flow {
 
 /// Running mean of fields on one grid, each weighing the same.
 class FieldMean {
@@ -30,4 +30,4 @@ class FieldMean {
   FlowField mean_;
 };
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

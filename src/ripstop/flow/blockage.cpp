@@ -6,7 +6,7 @@
 
 #include "ripstop/core/error.h"
 
-namespace ripstop {
+namespace ripstop::inline flow {
 
 // With U = 1, u the speed through the disk, x in the wake, y around it, b the blockage:
 //   K u^2 = y^2 - x^2                            (Bernoulli on either side, one pressure behind)
@@ -59,4 +59,4 @@ double spheroid_effective_volume(double length, double diameter) {
   return std::numbers::pi / 6 * length * diameter * diameter * (1 + a0 / (2 - a0));
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

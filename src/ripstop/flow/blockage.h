@@ -1,7 +1,7 @@
 // Effect of a tunnel on the drag of a body by classic theory. docs/theory/tunnel.md.
 #pragma once
 
-namespace ripstop {
+namespace ripstop::inline flow {
 
 /// A porous disk of loss coefficient K = dp / (rho u^2 / 2) that fills the share `blockage` of a closed test section;
 /// momentum theory with one pressure downstream for the wake and the air around it. 0: Taylor's K / (1 + K / 4)^2.
@@ -20,4 +20,4 @@ double open_jet_speed_change(double effective_volume, double jet_area);
 /// Doublet strength over speed of a prolate spheroid along the stream, its volume and its added mass's [m3].
 double spheroid_effective_volume(double length, double diameter);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

@@ -12,7 +12,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/flow/projections.h"
 
-namespace ripstop {
+namespace ripstop::inline flow {
 namespace {
 
 constexpr int segments = 240;  // of a circle: chords leave it by less than 1e-4 of the radius
@@ -186,4 +186,4 @@ std::vector<Triangle> rigid_disk_gap_band(Vec3 centre) {
   return surface;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

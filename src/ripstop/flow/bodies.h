@@ -7,7 +7,7 @@
 
 #include "ripstop/flow/flow.h"
 
-namespace ripstop {
+namespace ripstop::inline flow {
 
 /// A point of a body's outline in the plane of its axis (z along the stream).
 struct OutlinePoint {
@@ -46,4 +46,4 @@ std::vector<Triangle> turned(std::vector<Triangle> surface, Vec3 axis);
 /// solver: a body of similar size for studies of the flow alone.
 std::vector<Triangle> rigid_disk_gap_band(Vec3 centre);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

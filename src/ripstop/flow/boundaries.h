@@ -9,7 +9,7 @@
 
 #include "ripstop/flow/flow.h"
 
-namespace ripstop {
+namespace ripstop::inline flow {
 
 namespace cartesian {
 class SideBoundary;
@@ -31,4 +31,4 @@ void add_boundary(BoundaryRecord record);
 /// The sides that a problem's box has: those it names, or the far field where its stream is not along +z.
 Sides sides_of(const FlowProblem& problem);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

@@ -7,7 +7,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/flow/extent.h"
 
-namespace ripstop {
+namespace ripstop::inline flow {
 namespace {
 
 /// Whether the line from p to q passes through the triangle (Moeller and Trumbore 1997).
@@ -82,4 +82,4 @@ void check_bodies(const FlowProblem& problem) {
   }
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

@@ -10,7 +10,7 @@
 #include "ripstop/flow/openfoam/installation.h"
 #include "ripstop/flow/openfoam/openfoam.h"
 
-namespace ripstop {
+namespace ripstop::inline flow {
 namespace {
 
 std::vector<std::string> words_of(const std::vector<std::unique_ptr<BoundaryRecord>>& rows) {
@@ -123,4 +123,4 @@ std::vector<Lack> lacks(const EngineRecord& engine, const Abilities& wanted) {
   return result;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

@@ -11,7 +11,7 @@
 
 #include "ripstop/flow/flow.h"
 
-namespace ripstop {
+namespace ripstop::inline flow {
 
 /// Settings of a run for any engine; an engine ignores those that it does not use.
 struct EngineOptions {
@@ -73,4 +73,4 @@ struct Lack {
 };
 std::vector<Lack> lacks(const EngineRecord& engine, const Abilities& wanted);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

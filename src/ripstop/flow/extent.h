@@ -7,7 +7,7 @@
 
 #include "ripstop/flow/flow.h"
 
-namespace ripstop {
+namespace ripstop::inline flow {
 
 struct Extent {
   std::array<double, 3> low = {1e300, 1e300, 1e300}, high = {-1e300, -1e300, -1e300};  // [m]
@@ -37,4 +37,4 @@ inline Extent extent_of(const std::vector<Triangle>& surface) {
   return extent;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

@@ -10,7 +10,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/flow/average.h"
 
-namespace ripstop {
+namespace ripstop::inline flow {
 namespace {
 
 template <class T>
@@ -167,4 +167,4 @@ std::vector<int> cut_cells(const FlowGrid& grid, const std::vector<Triangle>& su
   return cells;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

@@ -16,7 +16,7 @@
 #include "ripstop/flow/flow_grid.h"
 #include "ripstop/flow/jet.h"
 
-namespace ripstop {
+namespace ripstop::inline flow {
 
 /// The undisturbed air far from all bodies, [NFM] section 5. A jet, and boundaries other than the far field, need a
 /// velocity along +z.
@@ -290,4 +290,4 @@ Vec3 sample(const FlowGrid& grid, const std::vector<Vec3>& field, Vec3 point);
 /// axes). Sorted and unique. Parts of the surface outside the grid cut nothing.
 std::vector<int> cut_cells(const FlowGrid& grid, const std::vector<Triangle>& surface);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

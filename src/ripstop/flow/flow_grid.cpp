@@ -7,7 +7,7 @@
 
 #include "ripstop/core/error.h"
 
-namespace ripstop {
+namespace ripstop::inline flow {
 namespace {
 
 double along(Vec3 v, int axis) {
@@ -176,4 +176,4 @@ FlowGrid coarser(const FlowGrid& grid) {
   return half;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

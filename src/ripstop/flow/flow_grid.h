@@ -6,7 +6,7 @@
 
 #include "ripstop/core/vec3.h"
 
-namespace ripstop {
+namespace ripstop::inline flow {
 
 /// Cells along one axis: uniform in a core, and on either side of it each wider than its inner neighbour by a
 /// constant ratio. Without cells before and after the core the whole axis is uniform.
@@ -66,4 +66,4 @@ FlowGrid graded(const FlowGrid& box, Vec3 core_low, Vec3 core_high, double growt
 /// The same box and core with half as many cells along each axis.
 FlowGrid coarser(const FlowGrid& grid);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <utility>
 
-namespace ripstop {
+namespace ripstop::inline flow {
 namespace {
 
 using Corner = std::tuple<double, double, double>;
@@ -70,4 +70,4 @@ std::vector<Hem> hems(const std::vector<Triangle>& surface) {
   return hems;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

@@ -6,7 +6,7 @@
 #include "ripstop/core/vec3.h"
 #include "ripstop/flow/flow.h"
 
-namespace ripstop {
+namespace ripstop::inline flow {
 
 struct Hem {
   Vec3 from, to;
@@ -17,4 +17,4 @@ struct Hem {
 /// mesh meets a finer one, one long edge lies along two short ones: those are no hem.
 std::vector<Hem> hems(const std::vector<Triangle>& surface);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

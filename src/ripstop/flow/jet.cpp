@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace ripstop {
+namespace ripstop::inline flow {
 
 double nozzle_height(const Nozzle& nozzle) {
   return nozzle.shape == NozzleShape::rectangle ? nozzle.height : nozzle.width;
@@ -55,4 +55,4 @@ double mean_speed_share(const Jet& jet, double low_x, double high_x, double low_
   return sum / (points * points);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

@@ -1,7 +1,7 @@
 // The nozzle of a wind tunnel and the jet that leaves it into still air: pure data, no engine's.
 #pragma once
 
-namespace ripstop {
+namespace ripstop::inline flow {
 
 enum class NozzleShape { circle, octagon, rectangle };
 
@@ -36,4 +36,4 @@ double speed_share(const Jet& jet, double x, double y);
 /// Its mean over a rectangle, which represents the flux into a coarse cell.
 double mean_speed_share(const Jet& jet, double low_x, double high_x, double low_y, double high_y);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

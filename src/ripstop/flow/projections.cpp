@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace ripstop {
+namespace ripstop::inline flow {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -62,4 +62,4 @@ Coefficients coefficients(const BodyLoad& load, const Attitude& attitude, const 
           f.normal / unit_force, dot(load.moment, away) / (unit_force * reference.diameter)};
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

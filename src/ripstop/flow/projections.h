@@ -6,7 +6,7 @@
 #include "ripstop/core/vec3.h"
 #include "ripstop/flow/flow.h"
 
-namespace ripstop {
+namespace ripstop::inline flow {
 
 /// Unit vector of a wind that makes `angle` with the z axis, in the plane through z that makes `azimuth` with the x
 /// axis [degrees]: (sin a cos b, sin a sin b, cos a).
@@ -54,4 +54,4 @@ struct Coefficients {
 /// The moment is about the point that BodyLoad has it about: for C_m the confluence.
 Coefficients coefficients(const BodyLoad& load, const Attitude& attitude, const Reference& reference);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

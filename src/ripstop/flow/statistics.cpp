@@ -9,7 +9,7 @@
 
 #include "ripstop/core/error.h"
 
-namespace ripstop {
+namespace ripstop::inline flow {
 namespace {
 
 struct Moments {
@@ -106,4 +106,4 @@ Peak strongest_frequency(const std::vector<Record>& records, double from) {
   return {top / length, near / all};
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

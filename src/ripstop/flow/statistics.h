@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace ripstop {
+namespace ripstop::inline flow {
 
 /// A quantity that is constant from one time to the next; times increase.
 struct Record {
@@ -40,4 +40,4 @@ struct Peak {
 };
 Peak strongest_frequency(const std::vector<Record>& records, double from);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

@@ -11,7 +11,7 @@
 #include "ripstop/core/quantity_error.h"
 #include "ripstop/flow/average.h"
 
-namespace ripstop {
+namespace ripstop::inline flow {
 namespace {
 
 void check(const Stopping& s) {
@@ -126,4 +126,4 @@ FlowField solve(FlowEngine& engine, const FlowProblem& problem, const FlowReport
   return solve_to_rest(*engine.start(problem), problem.stopping, report);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

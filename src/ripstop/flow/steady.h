@@ -4,7 +4,7 @@
 
 #include "ripstop/flow/flow.h"
 
-namespace ripstop {
+namespace ripstop::inline flow {
 
 /// Advances until the residual is reached, the drag has settled if `stopping` accepts that, or the iterations are
 /// used up. A flow that diverges from an earlier field or a guess is repeated once from the uniform stream.
@@ -15,4 +15,4 @@ FlowField solve_to_rest(Flow& flow, const Stopping& stopping, const FlowReport& 
 /// The whole way for one use: start, then to rest by FlowProblem::stopping.
 FlowField solve(FlowEngine& engine, const FlowProblem& problem, const FlowReport& report = {});
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

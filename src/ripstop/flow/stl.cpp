@@ -12,7 +12,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 
-namespace ripstop {
+namespace ripstop::inline flow {
 namespace {
 
 constexpr std::size_t header_size = 80, triangle_size = 50;
@@ -109,4 +109,4 @@ std::vector<Triangle> read_stl(const std::filesystem::path& path) {
   return surface;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

@@ -6,7 +6,7 @@
 
 #include "ripstop/flow/flow.h"
 
-namespace ripstop {
+namespace ripstop::inline flow {
 
 /// Normals follow the right-hand rule (a, b, c); a triangle without area gets (0, 0, 0). Throws
 /// Error(bad_data) for a corner that is not finite or beyond single precision, Error(io).
@@ -17,4 +17,4 @@ void write_stl(const std::filesystem::path& path, const std::vector<Triangle>& s
 /// Error(io).
 std::vector<Triangle> read_stl(const std::filesystem::path& path);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

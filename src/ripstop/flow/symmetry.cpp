@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace ripstop {
+namespace ripstop::inline flow {
 namespace {
 
 constexpr int fewest_cells = 8;     // across the whole box: four in a quarter, as an engine requires
@@ -36,4 +36,4 @@ std::string why_not_mirrored(const FlowProblem& problem) {
   return {};
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

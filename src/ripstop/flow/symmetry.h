@@ -5,10 +5,10 @@
 
 #include "ripstop/flow/flow.h"
 
-namespace ripstop {
+namespace ripstop::inline flow {
 
 /// Why cells, boundaries and stream of a problem are not their own mirror images in the planes x = 0 and y = 0, as a
 /// clause; empty: they are. The bodies are left to the caller.
 std::string why_not_mirrored(const FlowProblem& problem);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

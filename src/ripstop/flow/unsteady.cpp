@@ -11,7 +11,7 @@
 #include "ripstop/flow/average.h"
 #include "ripstop/flow/projections.h"
 
-namespace ripstop {
+namespace ripstop::inline flow {
 namespace {
 
 constexpr int steps_a_field = 8;       // between fields that the mean is made of
@@ -196,4 +196,4 @@ FlowField watch(Flow& flow, const FlowProblem& problem, const Watch& how, FlowRe
   return field;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

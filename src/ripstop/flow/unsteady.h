@@ -8,7 +8,7 @@
 #include "ripstop/flow/flow.h"
 #include "ripstop/flow/statistics.h"
 
-namespace ripstop {
+namespace ripstop::inline flow {
 
 /// The plane y = 0 of a field, as one with ny = 1.
 FlowField middle_plane(const FlowField& field);
@@ -58,4 +58,4 @@ void watch_forces(Flow& flow, const FlowProblem& problem, const Watch& how, Flow
 FlowField watch(Flow& flow, const FlowProblem& problem, const Watch& how, FlowRecord& record,
                 const WatchReport& report = {});
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 namespace {
 
 double weighted_dot(const std::vector<double>& a, const std::vector<double>& b,
@@ -82,4 +82,4 @@ std::vector<double> Accelerator::next(const std::vector<double>& x, const std::v
   return result;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

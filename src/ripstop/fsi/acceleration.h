@@ -5,7 +5,7 @@
 
 #include "ripstop/fsi/coupling_settings.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 /// Everything is in plain vectors so that a checkpoint can carry it.
 struct Accelerator {
@@ -26,4 +26,4 @@ struct Accelerator {
                            const std::vector<double>& weight);
 };
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

@@ -9,7 +9,7 @@
 #include "ripstop/core/checked_int.h"
 #include "ripstop/core/error.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 namespace {
 
 // How often one span is tried before its divergence is reported.
@@ -114,4 +114,4 @@ HistoryRow AdaptiveStepper::row_of_history(InflationState& state, long long inde
   return row;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

@@ -7,7 +7,7 @@
 #include "ripstop/cloth/cloth.h"
 #include "ripstop/fsi/opening_record.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 /// Number of steps of at most `step` [s] in each of `rows` rows of `duration` [s], starting at `time` [s].
 /// Throws Error(diverged) for more than can be recorded.
@@ -60,4 +60,4 @@ class AdaptiveStepper {
   ThreadTeam& team_;
 };
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 namespace {
 
 constexpr int across = 64, along = 88;    // cells of the box
@@ -50,4 +50,4 @@ double added_mass(FlowEngine& engine, const std::vector<Triangle>& surface, doub
   return -force / gain;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

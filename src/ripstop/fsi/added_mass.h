@@ -6,11 +6,11 @@
 #include "ripstop/core/vec3.h"
 #include "ripstop/flow/flow.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 /// Added mass along z of an impermeable rigid surface [kg]: force over acceleration at the start of its motion in
 /// still air. A separate flow, on cells fitted to the surface. Throws Error(usage) if the engine does not support
 /// unsteady flow.
 double added_mass(FlowEngine& engine, const std::vector<Triangle>& surface, double density);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

@@ -6,7 +6,7 @@
 
 #include "ripstop/canopy/shape.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 double mean_speed_over_disk(const FlowField& field, Vec3 centre, double diameter) {
   constexpr int rings = 16, spokes = 24;
@@ -31,4 +31,4 @@ double approach_speed(const FlowField& field, const CanopyMesh& mesh, const std:
   return mean_speed_over_disk(field, {0, 0, std::max(field.grid.origin.z, front - diameter)}, diameter);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

@@ -6,7 +6,7 @@
 #include "ripstop/flow/flow.h"
 #include "ripstop/parachute/canopy_mesh.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 /// Mean of the velocity along z over a disk across the axis, in equal parts of its area [m/s].
 double mean_speed_over_disk(const FlowField& field, Vec3 centre, double diameter);
@@ -15,4 +15,4 @@ double mean_speed_over_disk(const FlowField& field, Vec3 centre, double diameter
 /// where that lies before it [m/s].
 double approach_speed(const FlowField& field, const CanopyMesh& mesh, const std::vector<Vec3>& shape);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

@@ -6,7 +6,7 @@
 
 #include "ripstop/fsi/ledger.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 void enter_shape_change(SteadyIteration& now, const std::vector<Vec3>& before,
                         const std::vector<Vec3>& after) {
@@ -82,4 +82,4 @@ bool SteadyConvergence::reached(const SteadyState& state, const SteadyIteration&
          ledger_closes(now, tolerance);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

@@ -10,7 +10,7 @@
 #include "ripstop/fsi/coupling_settings.h"
 #include "ripstop/fsi/steady_state.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 /// Largest share of the load that regularisation may carry at convergence: half of the load error caused by
 /// the stepped cells of the flow.
@@ -45,4 +45,4 @@ class SteadyConvergence {
   std::vector<int> fixed_;
 };
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

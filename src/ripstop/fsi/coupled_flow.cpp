@@ -11,7 +11,7 @@
 #include "ripstop/fsi/sheet_transfer.h"
 #include "ripstop/fsi/transfer.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 namespace {
 
 /// Of the velocity that a constant load gives at the end of so many steps, v' = v + dt f/m and x' = x + dt v', the mean
@@ -202,4 +202,4 @@ void CoupledFlow::compute_added_mass(const std::vector<Vec3>& positions, double 
   memory.added_mass = added_mass(*engine_, surface_of(cells_, positions), density_ * density_ratio);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

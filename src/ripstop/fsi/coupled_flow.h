@@ -18,7 +18,7 @@
 #include "ripstop/fsi/payload.h"
 #include "ripstop/mesh/mesh.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 struct AirProblem {
   FlowProblem flow;  // one sheet, the canopy; its surface is left to the opening
@@ -159,4 +159,4 @@ class CoupledFlow {
   FlowAtDensity flow_;
 };
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

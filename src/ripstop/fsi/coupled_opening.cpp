@@ -10,7 +10,7 @@
 #include "ripstop/core/quantity_error.h"
 #include "ripstop/fsi/coupled_step.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 namespace {
 
 constexpr int added_masses = 25;  // in an opening
@@ -122,4 +122,4 @@ InflationFrame CoupledOpening::frame(InflationState& state) const {
   return Opening::frame(state);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

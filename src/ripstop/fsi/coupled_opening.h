@@ -7,7 +7,7 @@
 #include "ripstop/fsi/coupled_flow.h"
 #include "ripstop/fsi/opening.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 class CoupledOpening : public Opening {
  public:
@@ -27,4 +27,4 @@ class CoupledOpening : public Opening {
   std::unique_ptr<CoupledFlow> air_;
 };
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

@@ -6,7 +6,7 @@
 
 #include "ripstop/core/quantity_error.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 namespace {
 
 // Of the time in which the stream passes a cell: no row is longer, as steps of the flow are whole numbers of rows and
@@ -99,4 +99,4 @@ CoupledStep take_coupled_step(CoupledFlow& air, const AdaptiveStepper& stepper, 
                      [&] { return unguarded_step(air, stepper, cloth, span, surroundings, team, state); });
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

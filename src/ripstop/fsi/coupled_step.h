@@ -6,7 +6,7 @@
 #include "ripstop/fsi/adaptive_stepper.h"
 #include "ripstop/fsi/coupled_flow.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 struct CoupledStep {
   FlowStep flow;
@@ -30,4 +30,4 @@ double least_rows_in(const FlowProblem& flow);
 /// flow requires.
 double sound_step(CoupledFlow& air, double row, double time);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

@@ -1,7 +1,7 @@
 // [coupling] of a case file.
 #pragma once
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 enum class Acceleration { none, aitken, anderson };
 
@@ -29,4 +29,4 @@ struct CouplingSettings : CouplingOptions {
   double shape_tolerance_m = 1e-3;  // mean displacement of the nodes between two iterations
 };
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 namespace {
 
 constexpr int most_free_steps = 40000;  // without regularisation, where a loaded shape exists
@@ -63,4 +63,4 @@ Equilibrium find_equilibrium(const Cloth& cloth, const std::vector<Vec3>& previo
   return found;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

@@ -9,7 +9,7 @@
 #include "ripstop/cloth/cloth.h"
 #include "ripstop/mesh/mesh.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 struct EquilibriumOptions {
   double tolerance = 5e-4;      // RelaxOptions::tolerance
@@ -46,4 +46,4 @@ Equilibrium find_equilibrium(const Cloth& cloth, const std::vector<Vec3>& previo
                              const EquilibriumOptions& options, ThreadTeam& team,
                              const std::function<void(const RelaxProgress&)>& report = {});
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

@@ -3,7 +3,7 @@
 
 #include "ripstop/fsi/opening_record.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 /// At the end of one step of the flow. Places and velocities are over the ground, z up.
 struct FreeFlightRow {
@@ -81,4 +81,4 @@ void each_member(T& s, Visit&& visit) {
   visit("upright", s.upright);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

@@ -6,7 +6,7 @@
 #include "ripstop/core/vec3.h"
 #include "ripstop/flight/wind.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 struct FlightSettings {
   /// Equilibrium on the axis, or the end of a coupled inflation with the payload.
@@ -26,4 +26,4 @@ struct FlightSettings {
   bool operator==(const FlightSettings&) const = default;
 };
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

@@ -8,7 +8,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/flow/statistics.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 namespace {
 
 /// A swing counts where the tilt has passed its mean by this share of its standard deviation on either side.
@@ -172,4 +172,4 @@ FlightSummary summarise_flight(const std::vector<FreeFlightRow>& rows) {
   return s;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

@@ -6,7 +6,7 @@
 
 #include "ripstop/fsi/flight_record.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 /// A mean and its standard error. Absent where the flight is too short to have one.
 struct MeanWithError {
@@ -31,4 +31,4 @@ struct FlightSummary {
 /// Throws Error(usage) for fewer than two rows.
 FlightSummary summarise_flight(const std::vector<FreeFlightRow>& rows);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

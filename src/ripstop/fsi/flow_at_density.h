@@ -12,7 +12,7 @@
 
 #include "ripstop/flow/flow.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 class FlowAtDensity {
  public:
@@ -54,4 +54,4 @@ class FlowAtDensity {
   double density_, ratio_ = 1;
 };
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

@@ -5,7 +5,7 @@
 
 #include "ripstop/flow/steady.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 namespace {
 
 // The drag has settled when it moved by less than this within one piece of the flow's solution: half the
@@ -59,4 +59,4 @@ FlowField averaged_flow(Flow& flow, const FlowProblem& problem, Watch window, bo
   return field;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

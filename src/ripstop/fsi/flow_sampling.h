@@ -7,7 +7,7 @@
 #include "ripstop/flow/unsteady.h"
 #include "ripstop/fsi/steady_state.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 /// Advances the flow about the surface as it lies. Until `in_full`, only until the drag has settled: a flow need not be
 /// solved to its last digit while the shape still moves.
@@ -18,4 +18,4 @@ FlowField steady_flow(Flow& flow, Stopping stopping, bool in_full, const FlowRep
 FlowField averaged_flow(Flow& flow, const FlowProblem& problem, Watch window, bool in_full,
                         SteadyState& state, FlowRecord& record, const WatchReport& report);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

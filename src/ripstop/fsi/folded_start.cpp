@@ -15,7 +15,7 @@
 #include "ripstop/parachute/fold_sheet.h"
 #include "ripstop/parachute/hang.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 namespace {
 
 constexpr double bending_weight = 1e-3;
@@ -245,4 +245,4 @@ FoldedStart folded_start(const CanopyMesh& mesh, const Folding& folding, int sym
   return start;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

@@ -5,7 +5,7 @@
 #include "ripstop/core/thread_team.h"
 #include "ripstop/parachute/fold.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 /// Disks, cylinders and cones of revolution as fold(), flat sheets as fold_sheet(). Canopies of gores
 /// start from the zigzag of zigzag_of_gores() and are relaxed without loads, all springs equally stiff,
@@ -14,4 +14,4 @@ namespace ripstop {
 /// folds. Throws as fold(), and Error(usage) where a strain above 10 % remains.
 FoldedStart folded_start(const CanopyMesh& mesh, const Folding& folding, int symmetry, ThreadTeam& team);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

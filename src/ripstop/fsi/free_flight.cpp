@@ -11,7 +11,7 @@
 #include "ripstop/flight/point_mass.h"
 #include "ripstop/fsi/opening_cloth.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -335,4 +335,4 @@ FreeFlight::Balance FreeFlight::balance(const FreeFlightState& state, const Free
           norm(now - state.momentum_at_start - state.impulse) / (weight * cloth.time)};
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

@@ -18,7 +18,7 @@
 #include "ripstop/fsi/opening_end.h"
 #include "ripstop/parachute/canopy_mesh.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 struct FlightProblem {
   CanopyMesh mesh;                    // as cut; its fixed node becomes the payload
@@ -102,4 +102,4 @@ class FreeFlight {
   std::unique_ptr<CoupledFlow> air_;
 };
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 /// Load model: uniform pressure with damping, or coupled flow.
 enum class AirModel { uniform, coupled };
@@ -66,4 +66,4 @@ struct InflationSettings {
   std::optional<double> printed_peak_n;  // that the source's model gives
 };
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

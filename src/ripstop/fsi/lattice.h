@@ -12,7 +12,7 @@
 #include "ripstop/core/checked_int.h"
 #include "ripstop/core/vec3.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 inline constexpr double most_along = 1e6;  // from each other, in boxes or points of a lattice along an axis
 inline constexpr double most_room = 1e8;   // boxes or points
@@ -77,4 +77,4 @@ class Lattice {
   std::vector<Value> points_;
 };
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

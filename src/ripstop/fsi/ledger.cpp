@@ -6,7 +6,7 @@
 #include "ripstop/canopy/section_balance.h"
 #include "ripstop/fsi/approach.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 namespace {
 
 bool within(double a, double b, double tolerance) {
@@ -59,4 +59,4 @@ bool momentum_closes(const SteadyIteration& now, double tolerance) {
   return within(now.momentum_deficit, now.fluid_force, tolerance);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

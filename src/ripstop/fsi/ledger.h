@@ -8,7 +8,7 @@
 #include "ripstop/fsi/steady_state.h"
 #include "ripstop/parachute/canopy_mesh.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 /// The load of `state` as the cloth takes it.
 Loads loads_of(const SteadyState& state, const std::vector<Cell>& cells);
@@ -32,4 +32,4 @@ bool ledger_closes(const SteadyIteration& now, double tolerance);
 /// Fluid force and momentum deficit agree within `tolerance`.
 bool momentum_closes(const SteadyIteration& now, double tolerance);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

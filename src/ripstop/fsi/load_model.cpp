@@ -6,7 +6,7 @@
 
 #include "ripstop/core/error.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 namespace {
 
 double axial_force(const CanopySurface& canopy, const std::vector<double>& pressure) {
@@ -49,4 +49,4 @@ ClothLoad load_on_cloth(CanopyLoad model, const FlowField& field, const CanopySu
   return load;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

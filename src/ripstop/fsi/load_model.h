@@ -9,7 +9,7 @@
 #include "ripstop/fsi/steady_iteration.h"
 #include "ripstop/fsi/transfer.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 /// The canopy as the flow sees it.
 struct CanopySurface {
@@ -31,4 +31,4 @@ ClothLoad load_on_cloth(CanopyLoad model, const FlowField& field, const CanopySu
 /// out.
 SidePressures sides_of_cloth(const FlowField& field, const CanopySurface& canopy, bool sheet);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

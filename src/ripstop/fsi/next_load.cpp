@@ -1,6 +1,6 @@
 #include "ripstop/fsi/next_load.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 namespace {
 
 // A flow that does not come to rest, for example with jets through slots, returns different loads for the same shape.
@@ -47,4 +47,4 @@ void begin_windows(SteadyState& state, const CouplingSettings& settings) {
   state.accelerator.relaxation = settings.relaxation;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

@@ -6,7 +6,7 @@
 #include "ripstop/fsi/coupling_settings.h"
 #include "ripstop/fsi/steady_state.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 /// Updates pressure and residual traction of `state` with the flow's `answer` to them: accelerated while the answers
 /// converge, averaged where they jitter or are means in time. `area` of every cell as cut weighs the pressures [m2].
@@ -16,4 +16,4 @@ void update_load(SteadyState& state, const ClothLoad& answer, double drag_change
 /// From the next iteration on, the flow is averaged in time.
 void begin_windows(SteadyState& state, const CouplingSettings& settings);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

@@ -12,7 +12,7 @@
 #include "ripstop/fsi/summary.h"
 #include "ripstop/fsi/uniform_pressure_opening.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 namespace {
 
 constexpr double longest_block = 2e-3;  // [s]
@@ -123,4 +123,4 @@ std::unique_ptr<Opening> make_opening(InflationProblem problem) {
   return std::make_unique<UniformPressureOpening>(std::move(problem));
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

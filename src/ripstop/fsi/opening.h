@@ -12,7 +12,7 @@
 #include "ripstop/fsi/opening_record.h"
 #include "ripstop/parachute/canopy_mesh.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 struct InflationProblem {
   CanopyMesh mesh;  // as cut; fold lines and line damping are applied by the solver
@@ -79,4 +79,4 @@ class Opening {
 /// A CoupledOpening where the problem has `air`, else a UniformPressureOpening.
 std::unique_ptr<Opening> make_opening(InflationProblem problem);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

@@ -10,7 +10,7 @@
 #include "ripstop/core/quantity_error.h"
 #include "ripstop/fsi/folded_start.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 namespace {
 
 // Share of the cloth's viscosity that acts along yarns between nodes two cells apart. For the same loss in a resolved
@@ -141,4 +141,4 @@ bool OpeningCloth::cut_due(InflationState& state) const {
   return state.cuts.size() > before;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

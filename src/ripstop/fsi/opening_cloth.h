@@ -9,7 +9,7 @@
 #include "ripstop/fsi/opening_record.h"
 #include "ripstop/parachute/fold.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 /// A line through rings at the joints of skirt and lines, until it is cut.
 struct ReefingLine {
@@ -58,4 +58,4 @@ class OpeningCloth {
   double elastic_at_start_ = 0;
 };
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

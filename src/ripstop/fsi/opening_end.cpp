@@ -5,7 +5,7 @@
 
 #include "ripstop/core/error.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 std::vector<double> distances_over_ground(const std::vector<AirRow>& air) {
   std::vector<double> distances;
@@ -43,4 +43,4 @@ OpeningEnd end_of_opening(const Opening& opening, const InflationState& state, d
   return end;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

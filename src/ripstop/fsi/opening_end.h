@@ -5,7 +5,7 @@
 
 #include "ripstop/fsi/opening.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 /// Positions and velocities are those in the box of the opening, whose z axis is the path of the payload, upward.
 struct OpeningEnd {
@@ -60,4 +60,4 @@ std::vector<double> distances_over_ground(const std::vector<AirRow>& air);
 OpeningEnd end_of_opening(const Opening& opening, const InflationState& state, double load,
                           const std::vector<AirRow>& air);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

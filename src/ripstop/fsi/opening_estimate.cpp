@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 OpeningEstimate opening_estimate(const Design& design, std::optional<double> drag, std::string drag_from) {
   const Experience known = experience(design);
@@ -11,4 +11,4 @@ OpeningEstimate opening_estimate(const Design& design, std::optional<double> dra
   return estimate;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

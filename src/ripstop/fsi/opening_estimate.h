@@ -6,7 +6,7 @@
 
 #include "ripstop/parachute/design.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 struct OpeningEstimate {
   double coefficient = 0;      // C_x: peak over steady drag at infinite mass
@@ -22,4 +22,4 @@ struct OpeningEstimate {
 OpeningEstimate opening_estimate(const Design& design, std::optional<double> drag,
                                  std::string drag_from = {});
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

@@ -10,7 +10,7 @@
 #include "ripstop/core/members.h"
 #include "ripstop/fsi/coupled_flow.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 /// Axial load on the riser (downstream > 0) over one interval of the history.
 struct HistoryRow {
@@ -124,4 +124,4 @@ void each_member(T& s, Visit&& visit) {
   visit("shots", s.snapshots);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

@@ -5,7 +5,7 @@
 
 #include "ripstop/flight/point_mass.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -52,4 +52,4 @@ void move_payload(PayloadMotion& motion, const Payload& payload, double pull, do
   motion.acceleration = acceleration_of(motion, payload, pull, density).along;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

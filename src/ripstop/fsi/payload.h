@@ -3,7 +3,7 @@
 
 #include <functional>
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 struct Payload {
   double mass = 0;       // [kg]
@@ -34,4 +34,4 @@ void deploy(PayloadMotion& motion, const Payload& payload, double speed, double 
 void move_payload(PayloadMotion& motion, const Payload& payload, double pull, double length,
                   double density_at_deployment);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

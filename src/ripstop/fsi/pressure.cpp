@@ -9,7 +9,7 @@
 #include "ripstop/cloth/cloth.h"
 #include "ripstop/core/error.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 namespace {
 
 constexpr double load_tolerance = 1e-3;
@@ -75,4 +75,4 @@ UniformPressure pressure_for(double load, const CanopyMesh& mesh, bool linear, T
   return answer;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

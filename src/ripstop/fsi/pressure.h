@@ -6,7 +6,7 @@
 #include "ripstop/core/thread_team.h"
 #include "ripstop/parachute/canopy_mesh.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 struct UniformPressure {
   double pressure = 0;    // dp [Pa]
@@ -24,4 +24,4 @@ UniformPressure load_under(double pressure, const Mesh& mesh, bool linear, Threa
 UniformPressure pressure_for(double load, const CanopyMesh& mesh, bool linear, ThreadTeam& team,
                              const std::function<void()>& alive = {});
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

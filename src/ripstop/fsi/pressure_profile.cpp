@@ -5,7 +5,7 @@
 
 #include "ripstop/core/checked_int.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 std::vector<PressureRing> pressure_profile(const std::vector<Cell>& cells, const std::vector<Vec3>& x,
                                            const SidePressures& sides, const std::vector<double>& load,
@@ -54,4 +54,4 @@ std::vector<PressureRing> pressure_profile(const std::vector<Cell>& cells, const
   return result;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

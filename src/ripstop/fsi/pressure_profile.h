@@ -5,7 +5,7 @@
 
 #include "ripstop/fsi/transfer.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 /// Cloth at one place along the gores, means by area over all of them.
 struct PressureRing {
@@ -21,4 +21,4 @@ std::vector<PressureRing> pressure_profile(const std::vector<Cell>& cells, const
                                            const SidePressures& sides, const std::vector<double>& load,
                                            int rings = 40);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

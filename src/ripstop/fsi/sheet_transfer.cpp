@@ -13,7 +13,7 @@
 #include "ripstop/core/checked_int.h"
 #include "ripstop/fsi/lattice.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 namespace {
 
 constexpr double reach = 2.0;  // of the weights, in flow cells
@@ -384,4 +384,4 @@ double residual_traction_share(const ClothLoad& load, const std::vector<Cell>& c
   return pressure > 0 ? std::sqrt(traction / pressure) : 0;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

@@ -7,7 +7,7 @@
 #include "ripstop/flow/flow.h"
 #include "ripstop/mesh/mesh.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 /// A force a unit area of cloth that varies as the velocity of a rigid body does: at_centre + twist x (x -
 /// c), c the cloth's centre of area.
@@ -53,4 +53,4 @@ std::vector<Vec3> node_forces(const ClothLoad& load, const std::vector<Cell>& ce
 double residual_traction_share(const ClothLoad& load, const std::vector<Cell>& cells,
                                const std::vector<Vec3>& positions);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

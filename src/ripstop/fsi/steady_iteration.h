@@ -3,7 +3,7 @@
 
 #include "ripstop/core/members.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 /// Forces are axial, along +z [N].
 struct SteadyIteration {
@@ -68,4 +68,4 @@ void each_member(T& i, Visit&& visit) {
   visit("wall_time_s", i.wall_time, Shown{"|time", 5, ""});
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

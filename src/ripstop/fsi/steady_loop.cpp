@@ -12,7 +12,7 @@
 #include "ripstop/fsi/ledger.h"
 #include "ripstop/fsi/next_load.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 namespace {
 
 void require_inside(const FlowGrid& grid, const Mesh& mesh, const std::vector<Cell>& cells) {
@@ -169,4 +169,4 @@ double SteadySolver::printed_tolerance(double flow_residual) const {
   return flow_residual * dx * dx / (problem_.reference_area * largest_coefficient(problem_.mesh));
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

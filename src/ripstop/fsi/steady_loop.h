@@ -18,7 +18,7 @@
 #include "ripstop/fsi/steady_state.h"
 #include "ripstop/parachute/canopy_mesh.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 struct SteadyProblem {
   CanopyMesh mesh;            // start shape in the frame of the flow
@@ -85,4 +85,4 @@ class SteadySolver {
   FlowRecord record_;
 };
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

@@ -10,7 +10,7 @@
 #include "ripstop/fsi/steady_iteration.h"
 #include "ripstop/fsi/transfer.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 /// Statistics of an unsteady flow over one averaging window.
 struct WindowAverage {
@@ -81,4 +81,4 @@ void each_member(T& s, Visit&& visit) {
   visit("speeds", s.speeds);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

@@ -9,7 +9,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/quantity_error.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 namespace {
 
 constexpr double steady_band = 0.1;
@@ -196,4 +196,4 @@ InflationSummary summarise(const std::vector<HistoryRow>& rows, double low_pass_
   return summary;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

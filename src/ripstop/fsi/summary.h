@@ -6,7 +6,7 @@
 
 #include "ripstop/fsi/opening_record.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 struct InflationSummary {
   double last_load = 0;     // mean over the last fifth of the run; a steady load only where settled() [N]
@@ -81,4 +81,4 @@ bool settled(const InflationSummary& summary, double duration);
 /// above half their rate.
 std::vector<double> low_pass(const std::vector<double>& values, double interval, double cutoff_hz);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

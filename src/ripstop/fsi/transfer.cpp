@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 namespace {
 
 Vec3 area_of(const Cell& cell, const std::vector<Vec3>& x) {
@@ -91,4 +91,4 @@ Vec3 pressure_force(const std::vector<Cell>& cells, const std::vector<Vec3>& x,
   return force;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

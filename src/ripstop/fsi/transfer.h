@@ -7,7 +7,7 @@
 #include "ripstop/flow/flow.h"
 #include "ripstop/mesh/mesh.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 /// Two triangles for every cell with cloth.
 std::vector<Triangle> surface_of(const std::vector<Cell>& cells, const std::vector<Vec3>& positions);
@@ -29,4 +29,4 @@ SidePressures sample_sides(const FlowField& field, const std::vector<int>& porou
 Vec3 pressure_force(const std::vector<Cell>& cells, const std::vector<Vec3>& positions,
                     const std::vector<double>& difference);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

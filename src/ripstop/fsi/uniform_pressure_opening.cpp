@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 UniformPressureOpening::UniformPressureOpening(InflationProblem problem)
     : Opening(std::move(problem), 0.1, 0, AdaptiveStepper::Step::kept) {}
@@ -30,4 +30,4 @@ std::vector<HistoryRow> UniformPressureOpening::advance(InflationState& state, s
   return std::move(span.rows);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

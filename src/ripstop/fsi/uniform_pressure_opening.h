@@ -6,7 +6,7 @@
 
 #include "ripstop/fsi/opening.h"
 
-namespace ripstop {
+namespace ripstop::inline fsi {
 
 class UniformPressureOpening : public Opening {
  public:
@@ -19,4 +19,4 @@ class UniformPressureOpening : public Opening {
   double pressure_in(long long row) const;
 };
 
-}  // namespace ripstop
+}  // namespace ripstop::inline fsi

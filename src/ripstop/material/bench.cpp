@@ -5,7 +5,7 @@
 #include "ripstop/core/toml/fields.h"
 #include "ripstop/core/toml/read.h"
 
-namespace ripstop {
+namespace ripstop::inline material {
 
 void describe(Fields& fields, BenchCoupon& coupon) {
   fields.text("file", coupon.file, 400, "Record (CSV), relative to this file.").required();
@@ -135,4 +135,4 @@ Bench read_bench(const std::filesystem::path& file) {
   return bench;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline material

@@ -10,8 +10,10 @@
 #include "ripstop/material/curve_fit.h"
 
 namespace ripstop {
-
 class Fields;
+}
+
+namespace ripstop::inline material {
 
 enum class BenchKind { fabric, line, tape };
 enum class WeftChoice { automatic, same, separate };
@@ -58,4 +60,4 @@ void describe(Fields& fields, Bench& bench);
 /// Throws InputError(usage) with every problem in the file, Error(io).
 Bench read_bench(const std::filesystem::path& file);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline material

@@ -15,7 +15,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/least_squares.h"
 
-namespace ripstop {
+namespace ripstop::inline material {
 namespace {
 
 constexpr std::size_t fewest_points = 12;
@@ -390,4 +390,4 @@ CleanRecord clean_record(const TensileRecord& record, LoadKind kind) {
   return clean;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline material

@@ -7,7 +7,7 @@
 
 #include "ripstop/material/record.h"
 
-namespace ripstop {
+namespace ripstop::inline material {
 
 enum class LoadKind { per_width, whole };  // cloth and tape [N/m], line [N]
 
@@ -38,4 +38,4 @@ struct CleanRecord {
 /// strain at failure outside 0.25 % to 350 %.
 CleanRecord clean_record(const TensileRecord& record, LoadKind kind);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline material

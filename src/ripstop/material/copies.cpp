@@ -5,7 +5,7 @@
 #include <limits>
 #include <span>
 
-namespace ripstop {
+namespace ripstop::inline material {
 namespace {
 
 constexpr std::size_t fewest = 48;  // points in common
@@ -138,4 +138,4 @@ std::vector<Copy> find_copies(const std::vector<CleanRecord>& records) {
   return copies;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline material

@@ -6,7 +6,7 @@
 
 #include "ripstop/material/clean.h"
 
-namespace ripstop {
+namespace ripstop::inline material {
 
 /// Share of the noise of one record that differs from another: their difference, after the best shift and scale,
 /// relative to the noise of each. 0: the same noise, hence the same test, however scaled, shifted, thinned out or
@@ -28,4 +28,4 @@ std::vector<Copy> find_copies(const std::vector<CleanRecord>& records);
 /// Below this two records are one pull; up to 0.3 it is likely.
 inline constexpr double surely_copied = 0.1;
 
-}  // namespace ripstop
+}  // namespace ripstop::inline material

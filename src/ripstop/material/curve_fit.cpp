@@ -11,7 +11,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/least_squares.h"
 
-namespace ripstop {
+namespace ripstop::inline material {
 namespace {
 
 constexpr int grid_points = 200;
@@ -251,4 +251,4 @@ int choose_degree(const std::vector<MeanCurve>& curves, const FitOptions& option
   return degrees[i];
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline material

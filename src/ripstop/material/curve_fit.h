@@ -7,7 +7,7 @@
 
 #include "ripstop/material/clean.h"
 
-namespace ripstop {
+namespace ripstop::inline material {
 
 enum class DegreeRule { cross_validation, nfm };
 
@@ -85,4 +85,4 @@ double prediction_error(const std::vector<MeanCurve>& curves, int degree, const 
 /// not.
 int choose_degree(const std::vector<MeanCurve>& curves, const FitOptions& options);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline material

@@ -14,7 +14,7 @@
 #include "ripstop/core/units.h"
 #include "ripstop/material/copies.h"
 
-namespace ripstop {
+namespace ripstop::inline material {
 namespace {
 
 // Strength per mass: cotton cloth 0.02 N/tex, the best fibre (PBO, polyethylene) below 4 N/tex.
@@ -377,4 +377,4 @@ std::vector<std::string> material_warnings(const Material& material, double larg
       material);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline material

@@ -10,7 +10,7 @@
 #include "ripstop/material/library.h"
 #include "ripstop/material/permeability.h"
 
-namespace ripstop {
+namespace ripstop::inline material {
 
 /// The records of one direction of pull.
 struct DirectionFit {
@@ -52,4 +52,4 @@ std::string joined_warnings(const std::vector<std::string>& warnings);
 /// the tests.
 std::vector<std::string> material_warnings(const Material& material, double largest_strain);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline material

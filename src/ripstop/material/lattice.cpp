@@ -9,7 +9,7 @@
 
 #include "ripstop/core/error.h"
 
-namespace ripstop {
+namespace ripstop::inline material {
 namespace {
 
 constexpr double tolerance = 1e-3;      // of the returned curve, relative
@@ -314,4 +314,4 @@ CellWidths cell_widths(double h_row, double h_column, double xi, double eps) {
   return cell_widths(h_row, h_column, WovenLaws{axial, axial, shear, {}, {}});
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline material

@@ -7,7 +7,7 @@
 #include "ripstop/material/material.h"
 #include "ripstop/material/spring_law.h"
 
-namespace ripstop {
+namespace ripstop::inline material {
 
 /// Laws of the three spring families, per width [N/m].
 struct LatticeLaws {
@@ -84,4 +84,4 @@ Resultants lattice_resultants(const LatticeLaws& laws, double strain_along, doub
 /// The load per width [N/m] at `strain` along a yarn when nothing pulls across it.
 double uniaxial_load(const LatticeLaws& laws, double strain);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline material

@@ -12,7 +12,7 @@
 #include "ripstop/core/toml/write.h"
 #include "ripstop/material/spring_law.h"
 
-namespace ripstop {
+namespace ripstop::inline material {
 namespace {
 
 constexpr double stiffness_limit = 1e9;  // of K_1 [N] or [N/m]; steel cable of 100 mm has less
@@ -286,4 +286,4 @@ Material library_material(const std::string& name) {
                                                         : fmt::format("did you mean {}?", quoted(near))));
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline material

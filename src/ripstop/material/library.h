@@ -12,9 +12,11 @@
 #include "ripstop/material/material.h"
 
 namespace ripstop {
-
 class Fields;
 class Findings;
+}  // namespace ripstop
+
+namespace ripstop::inline material {
 
 /// The alternative is chosen by the key `kind` = "fabric", "line" or "tape".
 using Material = std::variant<Fabric, Line, Tape>;
@@ -60,4 +62,4 @@ Material read_material(const std::filesystem::path& file);
 /// materials/<name>.toml. Throws Error(usage) that names the nearest material when there is no such file.
 Material library_material(const std::string& name);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline material

@@ -7,7 +7,7 @@
 
 #include "ripstop/material/permeability.h"
 
-namespace ripstop {
+namespace ripstop::inline material {
 
 /// How cloth resists the air that passes it: `paper`, as porous cells; `sheet`, as a pressure drop across it.
 enum class PorosityModel { paper, sheet };
@@ -87,4 +87,4 @@ struct Tape {
   double break_load_n = 0;  // 0: unknown
 };
 
-}  // namespace ripstop
+}  // namespace ripstop::inline material

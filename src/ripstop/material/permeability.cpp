@@ -8,7 +8,7 @@
 #include "ripstop/core/least_squares.h"
 #include "ripstop/core/units.h"
 
-namespace ripstop {
+namespace ripstop::inline material {
 namespace {
 
 constexpr double slowest = 1e-5, fastest = 50;  // [m/s]
@@ -102,4 +102,4 @@ ErgunCloth ergun_cloth(const PressureDrop& law, const ErgunAir& air) {
   return {std::cbrt(g3), 150 * air.viscosity / (36 * law.linear * g3)};
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline material

@@ -5,7 +5,7 @@
 
 #include "ripstop/core/pressure_drop.h"
 
-namespace ripstop {
+namespace ripstop::inline material {
 
 /// One reading of a permeability tester.
 struct FlowPoint {
@@ -50,4 +50,4 @@ PressureDrop ergun(const ErgunCloth& cloth, const ErgunAir& air = {});
 /// be 1 or more.
 ErgunCloth ergun_cloth(const PressureDrop& law, const ErgunAir& air = {});
 
-}  // namespace ripstop
+}  // namespace ripstop::inline material

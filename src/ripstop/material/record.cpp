@@ -12,7 +12,7 @@
 #include "ripstop/core/table/text.h"
 #include "ripstop/core/units.h"
 
-namespace ripstop {
+namespace ripstop::inline material {
 namespace {
 
 using table::Quantity;
@@ -155,4 +155,4 @@ TensileRecord parse_record(const std::string& text, const std::filesystem::path&
   return std::move(records.front());
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline material

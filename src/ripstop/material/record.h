@@ -7,7 +7,7 @@
 
 #include "ripstop/core/table/table.h"
 
-namespace ripstop {
+namespace ripstop::inline material {
 
 /// Coupon data that a record contains or the campaign file adds. 0 or negative: not given.
 struct Coupon {
@@ -52,4 +52,4 @@ TensileRecord read_record(const std::filesystem::path& file, const Coupon& given
 TensileRecord parse_record(const std::string& text, const std::filesystem::path& file,
                            const Coupon& given = {}, const RecordFormat& format = {});
 
-}  // namespace ripstop
+}  // namespace ripstop::inline material

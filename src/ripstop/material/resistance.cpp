@@ -7,7 +7,7 @@
 #include "ripstop/core/toml/read.h"
 #include "ripstop/material/library.h"
 
-namespace ripstop {
+namespace ripstop::inline material {
 namespace {
 
 constexpr const char *linear_key = "pressure_drop_linear_pa_s_m",
@@ -133,4 +133,4 @@ std::vector<RenamedKey> rename_old_keys(Node& material) {
   return renamed;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline material

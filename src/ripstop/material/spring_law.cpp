@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace ripstop {
+namespace ripstop::inline material {
 
 double SpringLaw::energy(double strain) const {
   if (coefficients.empty()) return 0;
@@ -28,4 +28,4 @@ SpringLaw SpringLaw::linearised() const {
   return law;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline material

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-namespace ripstop {
+namespace ripstop::inline material {
 
 /// T(e) = sum_k K_k e^k for e >= 0 and T(e) = compression * K_1 max(e, -buckling_strain) for e < 0, with k = 1..n.
 /// The printed polynomial is fitted to tensile tests only; its higher terms are not known for e < 0 and are omitted
@@ -42,4 +42,4 @@ double SpringLaw::tangent(double strain) const {
   return sum;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline material

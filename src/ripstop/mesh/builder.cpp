@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace ripstop {
+namespace ripstop::inline mesh {
 namespace {
 
 // Index of a name, added where it is new.
@@ -252,4 +252,4 @@ void MeshBuilder::flatten_ties() {
   }
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline mesh

@@ -11,7 +11,7 @@
 #include "ripstop/material/material.h"
 #include "ripstop/mesh/mesh.h"
 
-namespace ripstop {
+namespace ripstop::inline mesh {
 
 /// Consecutive nodes and the lengths between them as cut [m]: lengths[i] from nodes[i] to nodes[i + 1].
 struct Path {
@@ -86,4 +86,4 @@ class MeshBuilder {
   std::map<std::string, WovenLaws> laws_;  // by the fabric's name: a fit takes tens of milliseconds
 };
 
-}  // namespace ripstop
+}  // namespace ripstop::inline mesh

@@ -4,7 +4,7 @@
 
 #include "ripstop/mesh/mesh.h"
 
-namespace ripstop {
+namespace ripstop::inline mesh {
 
 struct SpringView {
   int a, b;  // nodes
@@ -49,4 +49,4 @@ void each_spring(const Mesh& mesh, Visit&& visit) {
   each_irregular_spring(mesh, visit);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline mesh

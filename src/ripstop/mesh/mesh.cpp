@@ -1,6 +1,6 @@
 #include "ripstop/mesh/mesh.h"
 
-namespace ripstop {
+namespace ripstop::inline mesh {
 
 int Mesh::cell_count() const {
   int count = 0;
@@ -28,4 +28,4 @@ std::vector<Cell> cells_of(const Mesh& mesh) {
   return cells;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline mesh

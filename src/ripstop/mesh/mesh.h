@@ -11,7 +11,7 @@
 #include "ripstop/core/vec3.h"
 #include "ripstop/material/spring_law.h"
 
-namespace ripstop {
+namespace ripstop::inline mesh {
 
 /// The six unique springs of a node, each toward the forward neighbour (row + dr, column + dc).
 enum Direction { along_row, along_column, shear_up, shear_down, bend_row, bend_column, direction_count };
@@ -116,4 +116,4 @@ inline Vec3 area_vector(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   return 0.5 * cross(c - a, d - b);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline mesh

@@ -7,7 +7,7 @@
 
 #include "ripstop/core/error.h"
 
-namespace ripstop {
+namespace ripstop::inline output {
 namespace {
 
 double to_srgb(double linear) {
@@ -95,4 +95,4 @@ ColourRange colour_range(const std::vector<double>& values, double clipped) {
   return range;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline output

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace ripstop {
+namespace ripstop::inline output {
 
 /// sRGB, 0 .. 1.
 struct Colour {
@@ -35,4 +35,4 @@ struct ColourRange {
 /// peaks do not darken the rest. Widened when all are equal. Throws Error(bad_data) without a finite value.
 ColourRange colour_range(const std::vector<double>& values, double clipped = 0);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline output

@@ -9,7 +9,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 
-namespace ripstop {
+namespace ripstop::inline output {
 namespace {
 
 std::string header_line(const std::filesystem::path& path, const std::vector<std::string>& columns) {
@@ -172,4 +172,4 @@ void CsvLog::add_rows(const std::vector<std::vector<double>>& rows) {
   append_to_file(path_, lines);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline output

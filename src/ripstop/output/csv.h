@@ -9,7 +9,7 @@
 
 #include "ripstop/core/members.h"
 
-namespace ripstop {
+namespace ripstop::inline output {
 
 struct CsvTable {
   std::vector<std::string> columns;       // "speed_m_s", "drag_n"
@@ -62,4 +62,4 @@ class CsvLog {
   std::vector<std::string> columns_;
 };
 
-}  // namespace ripstop
+}  // namespace ripstop::inline output

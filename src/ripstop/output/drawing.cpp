@@ -19,7 +19,7 @@ extern "C" const char* __lsan_default_suppressions() {
 }
 #endif
 
-namespace ripstop {
+namespace ripstop::inline output {
 namespace {
 
 using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
@@ -158,4 +158,4 @@ void draw_raster(cairo_t* page, double x, double y, const Raster& raster) {
   cairo_paint(page);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline output

@@ -10,7 +10,7 @@
 #include "ripstop/output/colour.h"
 #include "ripstop/output/render.h"
 
-namespace ripstop {
+namespace ripstop::inline output {
 
 /// White page of this size [pixel]; `draw` fills it. The ending of the path, .png or .svg, chooses the
 /// format. Throws Error(usage) for another ending, Error(bad_data) when Cairo refuses (text that is
@@ -39,4 +39,4 @@ void fill_box(cairo_t* page, double x, double y, double width, double height, Co
 /// Pixels one to one with their upper left corner at (x, y).
 void draw_raster(cairo_t* page, double x, double y, const Raster& raster);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline output

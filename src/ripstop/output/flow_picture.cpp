@@ -8,7 +8,7 @@
 #include "ripstop/output/drawing.h"
 #include "ripstop/output/ticks.h"
 
-namespace ripstop {
+namespace ripstop::inline output {
 namespace {
 
 constexpr int shot_width = 420, margin = 24, head = 60, caption = 34, foot = 74;  // [pixel]
@@ -99,4 +99,4 @@ void write_flow_picture(const std::filesystem::path& path, const std::string& ti
   });
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline output

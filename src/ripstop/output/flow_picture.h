@@ -7,7 +7,7 @@
 
 #include "ripstop/flow/flow.h"
 
-namespace ripstop {
+namespace ripstop::inline output {
 
 /// A field with ny = 1, and the text below it.
 struct FlowShot {
@@ -21,4 +21,4 @@ struct FlowShot {
 void write_flow_picture(const std::filesystem::path& path, const std::string& title,
                         const std::vector<FlowShot>& shots);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline output

@@ -9,7 +9,7 @@
 #include "ripstop/core/units.h"
 #include "ripstop/output/piece_drawing.h"
 
-namespace ripstop {
+namespace ripstop::inline output {
 namespace {
 
 constexpr double mm = 1000;
@@ -109,4 +109,4 @@ void write_bill_csv(const std::filesystem::path& path, const Bill& bill) {
   write_file(path, text);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline output

@@ -6,7 +6,7 @@
 
 #include "ripstop/parachute/cut.h"
 
-namespace ripstop {
+namespace ripstop::inline output {
 
 /// Unit of the coordinates of a DXF file, which its header states ($MEASUREMENT and $INSUNITS).
 enum class DxfUnit { millimetres, inches };
@@ -39,4 +39,4 @@ void write_pattern_pdf(const std::filesystem::path& path, const Piece& piece, co
 /// mass. Throws Error(io).
 void write_bill_csv(const std::filesystem::path& path, const Bill& bill);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline output

@@ -11,7 +11,7 @@
 #include "ripstop/output/drawing.h"
 #include "ripstop/output/piece_drawing.h"
 
-namespace ripstop {
+namespace ripstop::inline output {
 namespace {
 
 constexpr double point = 0.0254 / 72;            // [m]
@@ -193,4 +193,4 @@ void write_pattern_pdf(const std::filesystem::path& path, const Piece& piece, co
   write_file(path, bytes);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline output

@@ -9,7 +9,7 @@
 #include "ripstop/output/drawing.h"
 #include "ripstop/output/ticks.h"
 
-namespace ripstop {
+namespace ripstop::inline output {
 namespace {
 
 constexpr int sheet_width = 1800, sheet_height = 1200;
@@ -244,4 +244,4 @@ void write_contact_sheet(const std::filesystem::path& path, const CanopyMesh& me
   });
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline output

@@ -9,7 +9,7 @@
 #include "ripstop/output/colour.h"
 #include "ripstop/parachute/canopy_mesh.h"
 
-namespace ripstop {
+namespace ripstop::inline output {
 
 struct CanopyPicture {
   std::string title;                      // "Stratos IV, 30 m/s, iteration 12"
@@ -36,4 +36,4 @@ struct CanopyShot {
 void write_contact_sheet(const std::filesystem::path& path, const CanopyMesh& mesh, const std::string& title,
                          const std::string& quantity, const std::vector<CanopyShot>& shots);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline output

@@ -10,7 +10,7 @@
 #include "ripstop/core/build_info.h"
 #include "ripstop/parachute/piece_edges.h"
 
-namespace ripstop {
+namespace ripstop::inline output {
 namespace {
 
 PieceBox box_of(const std::vector<Point2>& outline) {
@@ -107,4 +107,4 @@ PieceDrawing drawing_of(const Piece& piece, const Allowances& allowances, const 
   return drawing;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline output

@@ -7,7 +7,7 @@
 #include "ripstop/output/pattern_files.h"
 #include "ripstop/parachute/cut.h"
 
-namespace ripstop {
+namespace ripstop::inline output {
 
 /// Layers as cutters expect them, in the order in which they are drawn.
 enum class PieceLayer { cut, seam, fold, notch, lines, grain, text };
@@ -34,4 +34,4 @@ struct PieceDrawing {
 
 PieceDrawing drawing_of(const Piece& piece, const Allowances& allowances, const PatternHead& head);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline output

@@ -12,7 +12,7 @@
 #include "ripstop/output/drawing.h"
 #include "ripstop/output/ticks.h"
 
-namespace ripstop {
+namespace ripstop::inline output {
 namespace {
 
 constexpr int plot_width = 1200, plot_height = 800;
@@ -275,4 +275,4 @@ void write_plot(const std::filesystem::path& path, const Plot& plot) {
   });
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline output

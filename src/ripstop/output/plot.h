@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace ripstop {
+namespace ripstop::inline output {
 
 struct PlotSeries {
   std::string name;  // in the legend; empty: not listed
@@ -31,4 +31,4 @@ struct Plot {
 /// value can be drawn, or an axis is empty; Error(usage) for another ending, Error(io).
 void write_plot(const std::filesystem::path& path, const Plot& plot);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline output

@@ -6,7 +6,7 @@
 
 #include "ripstop/core/error.h"
 
-namespace ripstop {
+namespace ripstop::inline output {
 namespace {
 
 constexpr Colour rim_colour{0.93, 0.94, 0.95};
@@ -248,4 +248,4 @@ Raster render(const Scene& scene, const Camera& camera, int width, int height, i
   return raster;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline output

@@ -7,7 +7,7 @@
 #include "ripstop/core/vec3.h"
 #include "ripstop/output/colour.h"
 
-namespace ripstop {
+namespace ripstop::inline output {
 
 struct SceneLine {
   int a = 0, b = 0;  // its end points
@@ -54,4 +54,4 @@ struct Raster {
 /// point, and outlined where the surface behind is clearly farther away.
 Raster render(const Scene& scene, const Camera& camera, int width, int height, int samples = 3);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline output

@@ -9,7 +9,7 @@
 #include "ripstop/output/drawing.h"
 #include "ripstop/output/ticks.h"
 
-namespace ripstop {
+namespace ripstop::inline output {
 namespace {
 
 constexpr int page_width = 900, page_height = 1200, top = 84, margin = 24, bar_width = 190;
@@ -79,4 +79,4 @@ ColourRange write_sheet_picture(const std::filesystem::path& path, const Mesh& m
   return range;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline output

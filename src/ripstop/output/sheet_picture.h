@@ -8,7 +8,7 @@
 #include "ripstop/mesh/mesh.h"
 #include "ripstop/output/colour.h"
 
-namespace ripstop {
+namespace ripstop::inline output {
 
 struct SheetPicture {
   std::string title;
@@ -22,4 +22,4 @@ struct SheetPicture {
 ColourRange write_sheet_picture(const std::filesystem::path& path, const Mesh& mesh,
                                 const std::vector<Vec3>& positions, const SheetPicture& picture);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline output

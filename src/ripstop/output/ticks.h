@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace ripstop {
+namespace ripstop::inline output {
 
 /// Round numbers in steps of 1, 2 or 5 times a power of ten, about `count` of them, within [low, high].
 std::vector<double> ticks(double low, double high, int count);
@@ -13,4 +13,4 @@ std::vector<double> logarithmic_ticks(double low, double high, int count);
 /// The label of a tick among others at distance `step`: no more digits than needed to distinguish them.
 std::string tick_label(double value, double step);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline output

@@ -12,7 +12,7 @@
 #include "ripstop/core/file.h"
 #include "ripstop/core/markup.h"
 
-namespace ripstop {
+namespace ripstop::inline output {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "the raw data are declared as LittleEndian");
@@ -249,4 +249,4 @@ VtkImage flow_image(const FlowField& field) {
            vtk_array_single("velocity_m_per_s", field.velocity)}};
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline output

@@ -16,7 +16,7 @@
 #include "ripstop/flow/flow.h"
 #include "ripstop/mesh/mesh.h"
 
-namespace ripstop {
+namespace ripstop::inline output {
 
 /// One value or vector a point or cell. The name carries the unit where there is one: "pressure_pa".
 struct VtkArray {
@@ -75,4 +75,4 @@ VtkSurface spring_lines(const Mesh& mesh, const std::vector<Vec3>& positions);
 /// Pressure and velocity of a flow, single precision: "pressure_pa", "velocity_m_per_s".
 VtkImage flow_image(const FlowField& field);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline output

@@ -13,7 +13,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 
-namespace ripstop {
+namespace ripstop::inline output {
 namespace {
 
 using Path = std::filesystem::path;
@@ -154,4 +154,4 @@ VtkFile read_vtk(const Path& path) {
   return file;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline output

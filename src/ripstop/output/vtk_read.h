@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace ripstop {
+namespace ripstop::inline output {
 
 /// One array of a file as doubles.
 struct VtkData {
@@ -27,4 +27,4 @@ struct VtkFile {
 /// Throws Error(bad_data) for a file that is damaged or not one of Ripstop's, Error(io).
 VtkFile read_vtk(const std::filesystem::path& path);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline output

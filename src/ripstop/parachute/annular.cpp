@@ -12,7 +12,7 @@
 #include "ripstop/parachute/design.h"
 #include "ripstop/parachute/gored.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 namespace {
 
 /// Half an ellipse (a cos t, b sin t), t from 0 to pi, and its length from t = 0.
@@ -97,4 +97,4 @@ Experience experience(const Annular&) {
 
 constinit const CanopyFamily Annular::family = family_of<Annular>("annular", "annular");
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

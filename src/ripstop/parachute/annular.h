@@ -4,7 +4,7 @@
 #include "ripstop/parachute/family.h"
 #include "ripstop/parachute/gore.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 
 /// [parachute] with type = "annular"
 struct Annular {
@@ -23,4 +23,4 @@ Experience experience(const Annular& canopy);
 /// the ring, and crown_ratio a. S0 is the cloth of the ring without its vent, 2 pi (mean radius) (length of the arc).
 GorePattern gore_pattern(const Annular& canopy, int gores);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

@@ -1,9 +1,9 @@
 #include "ripstop/parachute/build.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 
 CanopyMesh build_mesh(const Design& design, const PartMaterials& materials) {
   return design.canopy.family().build(design.canopy, design, materials);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

@@ -7,7 +7,7 @@
 #include "ripstop/parachute/canopy_mesh.h"
 #include "ripstop/parachute/design.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 
 struct PartMaterials {
   Fabric canopy;
@@ -20,4 +20,4 @@ struct PartMaterials {
 /// Throws Error(usage) for a design that no lattice of the wanted size can represent.
 CanopyMesh build_mesh(const Design& design, const PartMaterials& materials);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

@@ -5,7 +5,7 @@
 
 #include "ripstop/mesh/mesh.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 
 /// One suspension line from the confluence to its end on the canopy, or one apex line to the edge of the vent.
 struct LineRun {
@@ -42,4 +42,4 @@ inline std::vector<int> line_joints(const CanopyMesh& mesh) {
   return joints;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

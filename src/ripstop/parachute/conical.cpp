@@ -7,7 +7,7 @@
 #include "ripstop/parachute/design.h"
 #include "ripstop/parachute/gored.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 
 void describe(Fields& fields, Conical& canopy) {
   describe_nominal_diameter(fields, canopy.nominal_diameter_m);
@@ -43,4 +43,4 @@ Experience experience(const Conical&) {
 
 constinit const CanopyFamily Conical::family = family_of<Conical>("conical", "conical");
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

@@ -4,7 +4,7 @@
 #include "ripstop/parachute/family.h"
 #include "ripstop/parachute/gore.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 
 /// [parachute] with type = "conical"
 struct Conical {
@@ -23,4 +23,4 @@ Experience experience(const Conical& canopy);
 /// D0 / (2 sqrt(cos angle)).
 GorePattern gore_pattern(const Conical& canopy, int gores);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

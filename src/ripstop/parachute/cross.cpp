@@ -13,7 +13,7 @@
 #include "ripstop/parachute/design.h"
 #include "ripstop/parachute/sewing.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 namespace {
 
 constexpr int arms = 4;
@@ -217,4 +217,4 @@ Experience experience(const Cross&) {
 
 constinit const CanopyFamily Cross::family = family_of<Cross>("cross", "cross");
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

@@ -3,7 +3,7 @@
 
 #include "ripstop/parachute/family.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 
 /// [parachute] with type = "cross"
 struct Cross {
@@ -27,4 +27,4 @@ CutPattern cut_pattern(const Cross& canopy, const Design& design);
 /// lies round the outline (hems) and round the middle square (seams). Throws Error(usage) for too few nodes.
 CanopyMesh build_canopy(const Cross& canopy, const Design& design, const PartMaterials& materials);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

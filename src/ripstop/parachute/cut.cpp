@@ -9,7 +9,7 @@
 #include "ripstop/parachute/gored.h"
 #include "ripstop/parachute/piece_edges.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 namespace {
 
 using std::numbers::pi;
@@ -184,4 +184,4 @@ Bill bill_of(const CutPattern& pattern, const Design& design, const PartMaterial
   return bill;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

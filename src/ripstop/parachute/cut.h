@@ -6,7 +6,7 @@
 
 #include "ripstop/parachute/build.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 
 struct GorePattern;
 
@@ -90,4 +90,4 @@ inline constexpr double packed_by_hand = 400;  // [kg/m3], order of Knacke's fig
 Bill bill_of(const CutPattern& pattern, const Design& design, const PartMaterials& materials,
              const Allowances& allowances, double packing_density);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

@@ -11,7 +11,7 @@
 #include "ripstop/core/toml/fields.h"
 #include "ripstop/core/toml/problem.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 namespace {
 
 void check_lines(const Design& design, Findings& findings) {
@@ -272,4 +272,4 @@ std::vector<std::string> shape_keys(const Design& design) {
   return keys;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

@@ -9,9 +9,11 @@
 #include "ripstop/parachute/family.h"
 
 namespace ripstop {
-
 class Fields;
 class Findings;
+}  // namespace ripstop
+
+namespace ripstop::inline parachute {
 
 /// [parachute.lines]
 struct LineSet {
@@ -104,4 +106,4 @@ double start_depth(const Design& design);
 /// The keys that decide the size of the canopy: for Findings::sound(), whatever the family.
 std::vector<std::string> shape_keys(const Design& design);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

@@ -12,7 +12,7 @@
 #include "ripstop/parachute/ring_layout.h"
 #include "ripstop/parachute/sewing.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 namespace {
 
 using std::numbers::pi;
@@ -232,4 +232,4 @@ Experience experience(const DiskGapBand&) {
 
 constinit const CanopyFamily DiskGapBand::family = family_of<DiskGapBand>("disk-gap-band", "stratos-iv");
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

@@ -3,7 +3,7 @@
 
 #include "ripstop/parachute/family.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 
 /// [parachute] with type = "disk-gap-band": a flat disk with a vent, an open gap, a cylindrical band.
 struct DiskGapBand {
@@ -33,4 +33,4 @@ CutPattern cut_pattern(const DiskGapBand& canopy, const Design& design);
 /// tied to it. Throws Error(usage) when the numbers of gores and lines allow no such lattice.
 CanopyMesh build_canopy(const DiskGapBand& canopy, const Design& design, const PartMaterials& materials);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

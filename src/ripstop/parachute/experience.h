@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 
 struct KnownRange {
   double low = 0, high = 0;  // 0: not known
@@ -40,4 +40,4 @@ inline constexpr const char* knacke_transcribed =
     "Knacke, NWC TP 6575, Tables 5-1 and 5-2, infinite mass; value agrees with a public transcription, not "
     "verified in print";
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

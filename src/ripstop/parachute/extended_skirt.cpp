@@ -10,7 +10,7 @@
 #include "ripstop/parachute/design.h"
 #include "ripstop/parachute/gored.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 
 void describe(Fields& fields, ExtendedSkirt& canopy) {
   fields
@@ -62,4 +62,4 @@ Experience experience(const ExtendedSkirt&) {
 constinit const CanopyFamily ExtendedSkirt::family =
     family_of<ExtendedSkirt>("extended-skirt", "extended-skirt");
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

@@ -4,7 +4,7 @@
 #include "ripstop/parachute/family.h"
 #include "ripstop/parachute/gore.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 
 /// [parachute] with type = "extended-skirt"
 struct ExtendedSkirt {
@@ -23,4 +23,4 @@ Experience experience(const ExtendedSkirt& canopy);
 /// S0 is the disk with its vent, and the extension.
 GorePattern gore_pattern(const ExtendedSkirt& canopy, int gores);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

@@ -1,7 +1,7 @@
 // Data of a canopy that a case needs before it is meshed.
 #pragma once
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 
 struct CanopyFacts {
   double cloth_area = 0;    // as cut, without vent, gaps and slots [m2]
@@ -25,4 +25,4 @@ struct CanopyFacts {
   }
 };
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

@@ -12,7 +12,7 @@
 #include "ripstop/parachute/ringslot.h"
 #include "ripstop/parachute/spherical.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 
 const Families& families() {
   static const Families list = {
@@ -25,4 +25,4 @@ const Families& families() {
 
 Canopy::Canopy() : Canopy(families().front()->make()) {}
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

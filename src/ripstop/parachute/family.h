@@ -11,10 +11,13 @@
 #include "ripstop/parachute/facts.h"
 
 namespace ripstop {
-
-class Canopy;
 class Fields;
 class Findings;
+}  // namespace ripstop
+
+namespace ripstop::inline parachute {
+
+class Canopy;
 struct CanopyMesh;
 struct CutPattern;
 struct Design;
@@ -81,4 +84,4 @@ using Families = std::vector<const CanopyFamily*>;
 /// The list: families.cpp.
 const Families& families();
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

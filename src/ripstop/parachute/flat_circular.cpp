@@ -7,7 +7,7 @@
 #include "ripstop/parachute/design.h"
 #include "ripstop/parachute/gored.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 
 void describe(Fields& fields, FlatCircular& canopy) {
   describe_nominal_diameter(fields, canopy.nominal_diameter_m);
@@ -37,4 +37,4 @@ Experience experience(const FlatCircular&) {
 
 constinit const CanopyFamily FlatCircular::family = family_of<FlatCircular>("flat-circular", "flat-circular");
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

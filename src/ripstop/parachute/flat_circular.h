@@ -4,7 +4,7 @@
 #include "ripstop/parachute/family.h"
 #include "ripstop/parachute/gore.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 
 /// [parachute] with type = "flat-circular"
 struct FlatCircular {
@@ -21,4 +21,4 @@ Experience experience(const FlatCircular& canopy);
 /// S0 = pi/4 nominal_diameter^2, the area of the polygon with its vent.
 GorePattern gore_pattern(const FlatCircular& canopy, int gores);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

@@ -14,7 +14,7 @@
 #include "ripstop/mesh/each_spring.h"
 #include "ripstop/parachute/hang.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 namespace {
 
 using std::numbers::pi;
@@ -373,4 +373,4 @@ StartStrain start_strain(const Mesh& mesh, const std::vector<Vec3>& x) {
   return result;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

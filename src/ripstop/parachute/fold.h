@@ -7,7 +7,7 @@
 #include "ripstop/core/vec3.h"
 #include "ripstop/parachute/canopy_mesh.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 
 struct Folding {
   double initial_radius = 0;  // of the folded skirt, midway between its inner and outer folds [m]
@@ -53,4 +53,4 @@ struct StartStrain {
 };
 StartStrain start_strain(const Mesh& mesh, const std::vector<Vec3>& positions);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

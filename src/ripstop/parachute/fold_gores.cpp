@@ -9,7 +9,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/quantity_error.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 namespace {
 
 // One row of one patch, from the vent down.
@@ -143,4 +143,4 @@ FoldedStart zigzag_of_gores(const Mesh& mesh, int folds, double share) {
   return result;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

@@ -3,7 +3,7 @@
 
 #include "ripstop/parachute/fold.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 
 /// A zigzag about the axis of every ring of nodes: fold lines follow columns, seams on inner folds. Every row keeps
 /// the length of its strips and every fold line the length of its columns, counted from the vent, where the rows are
@@ -12,4 +12,4 @@ namespace ripstop {
 /// vent lies at z = 0. Throws Error(usage) when the strips are too short for the share, or the folds do not fit.
 FoldedStart zigzag_of_gores(const Mesh& mesh, int folds, double share);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

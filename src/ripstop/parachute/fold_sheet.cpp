@@ -11,7 +11,7 @@
 #include "ripstop/core/quantity_error.h"
 #include "ripstop/parachute/hang.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 namespace {
 
 using std::numbers::pi;
@@ -136,4 +136,4 @@ FoldedStart fold_sheet(const CanopyMesh& mesh, const Folding& folding) {
   return start;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

@@ -3,7 +3,7 @@
 
 #include "ripstop/parachute/fold.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 
 /// Whether all the cloth lies in one plane across the axis and no patch goes round it.
 bool is_flat_sheet(const Mesh& mesh);
@@ -14,4 +14,4 @@ bool is_flat_sheet(const Mesh& mesh);
 /// of folds, or when the lattice has no column on the fold lines, or the radius does not fit.
 FoldedStart fold_sheet(const CanopyMesh& mesh, const Folding& folding);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

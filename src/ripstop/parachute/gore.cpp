@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 namespace {
 
 using std::numbers::pi;
@@ -127,4 +127,4 @@ CanopyFacts facts(const GorePattern& pattern) {
   return facts;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

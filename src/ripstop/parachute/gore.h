@@ -8,8 +8,10 @@
 #include "ripstop/parachute/facts.h"
 
 namespace ripstop {
-
 class Fields;
+}
+
+namespace ripstop::inline parachute {
 
 /// Across a gore at `height` above the lower edge of its strip, measured along the centre line. All [m].
 struct Station {
@@ -74,4 +76,4 @@ double length_along(const GorePattern& pattern, double across);
 
 CanopyFacts facts(const GorePattern& pattern);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

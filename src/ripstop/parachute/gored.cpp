@@ -13,7 +13,7 @@
 #include "ripstop/parachute/ring_layout.h"
 #include "ripstop/parachute/sewing.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 namespace {
 
 using std::numbers::pi;
@@ -283,4 +283,4 @@ CanopyMesh build_gored(const GorePattern& pattern, const Design& design, const P
   return Builder(pattern, design, materials).build();
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

@@ -7,7 +7,7 @@
 #include "ripstop/parachute/cut.h"
 #include "ripstop/parachute/gore.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 
 /// Start shape as start_profile() has it: skirt seams in the plane z = 0, mouth toward -z, seams at the
 /// angles 2 pi k / N. Cloth with fullness bulges outward between the radials, tilted about the strip's upper
@@ -41,4 +41,4 @@ CanopyMesh build_canopy(const T& canopy, const Design& design, const PartMateria
 /// Whether tape lies along the lower or the upper edge of a strip; a joint has it once, as a lower edge.
 bool has_hem_tape(const Design& design, const GorePattern& pattern, std::size_t strip, bool upper);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

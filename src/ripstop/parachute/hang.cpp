@@ -10,7 +10,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/quantity_error.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 
 double LineLink::length() const {
   return std::accumulate(lengths.begin(), lengths.end(), 0.0);
@@ -85,4 +85,4 @@ void hang(const LineLink& link, std::vector<Vec3>& x) {
   }
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

@@ -6,7 +6,7 @@
 #include "ripstop/core/vec3.h"
 #include "ripstop/parachute/canopy_mesh.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 
 /// A part of a line between two nodes of the cloth, or the confluence and one.
 struct LineLink {
@@ -28,4 +28,4 @@ double free_way(const LineLink& link, const CanopyMesh& mesh, const std::vector<
 /// away from the axis, every segment a chord of its rest length.
 void hang(const LineLink& link, std::vector<Vec3>& x);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

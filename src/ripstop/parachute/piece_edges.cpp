@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 namespace {
 
 std::string name_of(const Piece& piece, std::size_t edge) {
@@ -102,4 +102,4 @@ std::vector<PieceMark> line_marks(const Piece& piece, int lines, int pieces) {
   return marks;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

@@ -7,7 +7,7 @@
 
 #include "ripstop/parachute/cut.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 
 /// Edges of the outline that follow each other with one name and without a corner, counterclockwise, finished size.
 struct EdgeRun {
@@ -28,4 +28,4 @@ std::vector<std::array<Point2, 2>> notches(const Piece& piece, const Allowances&
 /// have no common spacing the places differ from piece to piece, and one mark in the middle states the numbers.
 std::vector<PieceMark> line_marks(const Piece& piece, int lines, int pieces);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

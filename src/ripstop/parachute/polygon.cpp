@@ -11,7 +11,7 @@
 #include "ripstop/parachute/design.h"
 #include "ripstop/parachute/gored.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 namespace {
 
 using std::numbers::pi;
@@ -98,4 +98,4 @@ Experience experience(const Polygon&) {
 
 constinit const CanopyFamily Polygon::family = family_of<Polygon>("polygon", "hexagon");
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

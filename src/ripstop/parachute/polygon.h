@@ -5,7 +5,7 @@
 #include "ripstop/parachute/family.h"
 #include "ripstop/parachute/gore.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 
 /// [parachute] with type = "polygon"; `gores` is the number of its sides.
 struct Polygon {
@@ -28,4 +28,4 @@ CutPattern cut_pattern(const Polygon& canopy, const Design& design);
 /// As build_gored() without seams. The yarns follow the triangles, where those of the sheet have one direction.
 CanopyMesh build_canopy(const Polygon& canopy, const Design& design, const PartMaterials& materials);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

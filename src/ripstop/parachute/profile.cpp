@@ -11,7 +11,7 @@
 #include "ripstop/parachute/design.h"
 #include "ripstop/parachute/gored.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 namespace {
 
 using std::numbers::pi;
@@ -214,4 +214,4 @@ Experience experience(const ProfileCanopy&) {
 
 constinit const CanopyFamily ProfileCanopy::family = family_of<ProfileCanopy>("profile", "elliptical");
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

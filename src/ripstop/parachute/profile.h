@@ -6,7 +6,7 @@
 #include "ripstop/parachute/family.h"
 #include "ripstop/parachute/gore.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 
 /// [[parachute.pieces]]: one piece of every gore, from the skirt up. Points run toward the vent.
 struct ProfilePiece {
@@ -36,4 +36,4 @@ GorePattern gore_pattern(const ProfileCanopy& canopy, int gores);
 /// See gored.h. A piece that is widest between its edges is meshed as two, sewn together there.
 CanopyMesh build_canopy(const ProfileCanopy& canopy, const Design& design, const PartMaterials& materials);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

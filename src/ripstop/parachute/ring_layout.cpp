@@ -9,7 +9,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/quantity_error.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 namespace {
 
 // Columns are halved where they are closer than this many times the mean spacing, or wider
@@ -153,4 +153,4 @@ RingLayout lay_out_rings(const std::vector<Strip>& strips, double cloth_area, co
   return layout;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

@@ -6,7 +6,7 @@
 
 #include "ripstop/parachute/design.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 
 /// A strip of cloth right round the canopy, from its lower edge toward the vent.
 struct Strip {
@@ -38,4 +38,4 @@ struct RingLayout {
 /// square; the node count is then met as far as the numbers of columns allow.
 RingLayout lay_out_rings(const std::vector<Strip>& strips, double cloth_area, const Design& design);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

@@ -11,7 +11,7 @@
 #include "ripstop/parachute/gored.h"
 #include "ripstop/parachute/spherical.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 
 namespace {
 
@@ -128,4 +128,4 @@ Experience experience(const Ringsail&) {
 
 constinit const CanopyFamily Ringsail::family = family_of<Ringsail>("ringsail", "adept");
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

@@ -4,7 +4,7 @@
 #include "ripstop/parachute/family.h"
 #include "ripstop/parachute/gore.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 
 /// [[parachute.rows]]: one row of sails, from the skirt up.
 struct SailRow {
@@ -37,4 +37,4 @@ Experience experience(const Ringsail& canopy);
 /// S0 = pi/4 nominal_diameter^2, the area of the cap with slots and vent and without fullness.
 GorePattern gore_pattern(const Ringsail& canopy, int gores);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

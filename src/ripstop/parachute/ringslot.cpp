@@ -10,7 +10,7 @@
 #include "ripstop/parachute/design.h"
 #include "ripstop/parachute/gored.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 
 namespace {
 
@@ -85,4 +85,4 @@ Experience experience(const Ringslot&) {
 
 constinit const CanopyFamily Ringslot::family = family_of<Ringslot>("ringslot", "ringslot");
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

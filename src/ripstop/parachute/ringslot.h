@@ -4,7 +4,7 @@
 #include "ripstop/parachute/family.h"
 #include "ripstop/parachute/gore.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 
 /// [parachute] with type = "ringslot"
 struct Ringslot {
@@ -25,4 +25,4 @@ Experience experience(const Ringslot& canopy);
 /// S0 = pi/4 nominal_diameter^2, slots and vent included.
 GorePattern gore_pattern(const Ringslot& canopy, int gores);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

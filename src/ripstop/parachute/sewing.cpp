@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 
 void CanopyBuilder::set_skirt(int patch) {
   rigging.skirt_nodes = row(patch, 0).nodes;
@@ -153,4 +153,4 @@ CanopyMesh CanopyBuilder::finish() {
   return {std::move(mesh), std::move(rigging)};
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

@@ -7,7 +7,7 @@
 #include "ripstop/mesh/builder.h"
 #include "ripstop/parachute/build.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 
 /// Lines of equal length from the confluence to nodes on the edge of the vent, which they pull down.
 struct ApexLines {
@@ -66,4 +66,4 @@ class CanopyBuilder : public MeshBuilder {
                 const Line& material, ChainLaws laws);
 };
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

@@ -7,7 +7,7 @@
 #include "ripstop/parachute/design.h"
 #include "ripstop/parachute/gored.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 
 double sphere_radius(double nominal_diameter, double half_angle) {
   return nominal_diameter / 2 / std::sqrt(2 * (1 - std::cos(half_angle)));
@@ -53,4 +53,4 @@ Experience experience(const Spherical& canopy) {
 
 constinit const CanopyFamily Spherical::family = family_of<Spherical>("spherical", "hemispherical");
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

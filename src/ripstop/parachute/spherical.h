@@ -4,7 +4,7 @@
 #include "ripstop/parachute/family.h"
 #include "ripstop/parachute/gore.h"
 
-namespace ripstop {
+namespace ripstop::inline parachute {
 
 /// [parachute] with type = "spherical"
 struct Spherical {
@@ -25,4 +25,4 @@ Experience experience(const Spherical& canopy);
 /// S0 = pi/4 nominal_diameter^2, the area of the cap with its vent.
 GorePattern gore_pattern(const Spherical& canopy, int gores);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline parachute

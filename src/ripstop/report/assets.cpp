@@ -23,7 +23,7 @@ RIPSTOP_ASSET(ripstop_report_viewer, "page/viewer.js")
 RIPSTOP_ASSET(ripstop_report_controls, "page/controls.js")
 RIPSTOP_ASSET(ripstop_report_main, "page/main.js")
 
-namespace ripstop {
+namespace ripstop::inline report {
 
 std::string_view report_skeleton() {
   return RIPSTOP_EMBEDDED_TEXT(ripstop_report_skeleton);
@@ -51,4 +51,4 @@ std::vector<Asset> report_scripts() {
           {"main.js", RIPSTOP_EMBEDDED_TEXT(ripstop_report_main)}};
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline report

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-namespace ripstop {
+namespace ripstop::inline report {
 
 struct Asset {
   const char* name;  // "viewer.js"
@@ -15,4 +15,4 @@ std::string_view report_skeleton();   // page/page.html
 std::vector<Asset> report_styles();   // in the order of the page
 std::vector<Asset> report_scripts();  // each needs those before it
 
-}  // namespace ripstop
+}  // namespace ripstop::inline report

@@ -7,7 +7,7 @@
 #include <limits>
 #include <new>
 
-namespace ripstop {
+namespace ripstop::inline report {
 namespace {
 
 std::string deflated(const std::string& bytes) {
@@ -70,4 +70,4 @@ Quantised quantise(const std::vector<double>& values, int components, int levels
   return result;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline report

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace ripstop {
+namespace ripstop::inline report {
 
 std::string base64(std::string_view bytes);
 
@@ -23,4 +23,4 @@ inline constexpr std::uint32_t no_number = 65535;
 inline constexpr int finest_levels = 65534;
 Quantised quantise(const std::vector<double>& values, int components, int levels = finest_levels);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline report

@@ -9,7 +9,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/output/vtk_read.h"
 
-namespace ripstop {
+namespace ripstop::inline report {
 namespace {
 
 /// A field on the cells of a rectilinear grid, trilinear between their centres.
@@ -165,4 +165,4 @@ FlowView read_flow(const std::filesystem::path& file, Vec3 low, Vec3 high, int m
   return view;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline report

@@ -7,7 +7,7 @@
 
 #include "ripstop/core/vec3.h"
 
-namespace ripstop {
+namespace ripstop::inline report {
 
 struct FlowView {
   std::array<int, 3> cells{};            // cell (i, j, k) is number i + nx (j + ny k)
@@ -23,4 +23,4 @@ struct FlowView {
 /// `most_cells` cells. Throws Error(bad_data), Error(io).
 FlowView read_flow(const std::filesystem::path& file, Vec3 low, Vec3 high, int most_cells = 160'000);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline report

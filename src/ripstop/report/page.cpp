@@ -13,7 +13,7 @@
 #include "ripstop/report/encode.h"
 #include "ripstop/report/report.h"
 
-namespace ripstop {
+namespace ripstop::inline report {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -237,4 +237,4 @@ bool is_report(const std::string& page) {
   return page.starts_with(beginning);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline report

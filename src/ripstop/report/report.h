@@ -9,7 +9,7 @@
 #include "ripstop/report/flow_view.h"
 #include "ripstop/report/shape_view.h"
 
-namespace ripstop {
+namespace ripstop::inline report {
 
 /// One number, word or list of a result, as result.json has it.
 struct ReportValue {
@@ -76,4 +76,4 @@ std::string plots_json(const std::vector<ReportPlot>& plots);
 /// Whether a file begins as report_page() does.
 bool is_report(const std::string& page);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline report

@@ -11,7 +11,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/output/vtk_read.h"
 
-namespace ripstop {
+namespace ripstop::inline report {
 namespace {
 
 [[noreturn]] void reject(const std::filesystem::path& path, const char* reason) {
@@ -151,4 +151,4 @@ ShapeView shape_of(const VtkSurface& canopy, const VtkSurface& lines) {
   return view;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline report

@@ -8,7 +8,7 @@
 
 #include "ripstop/output/vtk.h"
 
-namespace ripstop {
+namespace ripstop::inline report {
 
 /// One value a cell.
 struct CellValues {
@@ -45,4 +45,4 @@ ShapeView read_shape(const std::vector<ShapeFiles>& files);
 /// Of such surfaces in memory: cloth as quads, and lines with their parts.
 ShapeView shape_of(const VtkSurface& canopy, const VtkSurface& lines);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline report

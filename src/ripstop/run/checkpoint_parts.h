@@ -4,7 +4,7 @@
 #include <array>
 #include <chrono>
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 /// Folders that are written alternately, so that the last checkpoint remains whole until the next one is.
 inline constexpr std::array<const char*, 2> alternating_folders{"even", "odd"};
@@ -24,4 +24,4 @@ class CheckpointTimer {
   Clock::time_point saved_ = Clock::now();
 };
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -4,10 +4,10 @@
 #include "ripstop/core/error.h"
 #include "ripstop/flow/openfoam/hostfile.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 const EngineRecord& engine_of(const Settings& resolved) {
-  return engine_of(resolved.flow().engine);
+  return flow::engine_of(resolved.flow().engine);
 }
 
 EngineOptions engine_options(const Settings& resolved) {
@@ -27,4 +27,4 @@ void require_hosts(const std::filesystem::path& hostfile, const Settings& resolv
   openfoam::require_slots(hostfile, resolved.flow().ranks);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

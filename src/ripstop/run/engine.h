@@ -6,7 +6,7 @@
 #include "ripstop/case/settings.h"
 #include "ripstop/flow/engines.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 const EngineRecord& engine_of(const Settings& resolved);
 /// Engine settings of the case; threads and folders are those of the run.
@@ -15,4 +15,4 @@ EngineOptions engine_options(const Settings& resolved);
 /// path is no hostfile. The hosts of the ranks change no result, so they are not a key of the case.
 void require_hosts(const std::filesystem::path& hostfile, const Settings& resolved);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -15,12 +15,12 @@
 #include "ripstop/core/members.h"
 #include "ripstop/core/vec3.h"
 
-namespace ripstop::detail {
+namespace ripstop::inline run::detail {
 template <class T>
 inline constexpr bool is_optional = false;
 template <class T>
 inline constexpr bool is_optional<std::optional<T>> = true;
-}  // namespace ripstop::detail
+}  // namespace ripstop::inline run::detail
 
 template <>
 struct nlohmann::adl_serializer<ripstop::Vec3> {
@@ -62,7 +62,7 @@ struct nlohmann::adl_serializer<T> {
   }
 };
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 /// Where a case as JSON has the value of a key: "flow.core.size_m" is /flow/core/size_m.
 inline nlohmann::ordered_json::json_pointer pointer_of(const std::string& key) {
@@ -108,4 +108,4 @@ T from_cbor(const std::string& bytes, int format, const char* what) {
   }
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

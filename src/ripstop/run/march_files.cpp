@@ -12,7 +12,7 @@
 #include "ripstop/core/hash.h"
 #include "ripstop/flow/unsteady.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -103,4 +103,4 @@ void write_air_frame(RunFolder& folder, const CoupledFlow& air, long long frame)
   write_image(fs::path(name).replace_extension(), flow_image(middle_plane(field)));
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

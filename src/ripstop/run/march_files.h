@@ -14,7 +14,7 @@
 #include "ripstop/run/checkpoint_parts.h"
 #include "ripstop/run/run_folder.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 /// The tables and checkpoints of a run in time. A checkpoint is a sealed file: the hash of the tables that belong to it,
 /// the folder of its air, and the state of the solver. The air alternates between two folders, so that the last
@@ -108,4 +108,4 @@ inline std::string air_ending(const FlowGrid& grid) {
   return grid.uniform() ? "vti" : "vtr";
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

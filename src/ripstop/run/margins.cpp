@@ -6,7 +6,7 @@
 #include <numeric>
 #include <string>
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 Margins case_margins(const Settings& resolved, const CanopyMesh& mesh,
                      const std::vector<double>& spring_tensions, const StressPeak& stress,
@@ -90,4 +90,4 @@ std::vector<std::string> margin_warnings(const std::optional<Margins>& margins) 
   return all;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

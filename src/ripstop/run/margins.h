@@ -10,7 +10,7 @@
 #include "ripstop/case/settings.h"
 #include "ripstop/core/members.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 template <Of<Margin> T, class Visit>
 void each_member(T& m, Visit&& visit) {
@@ -46,4 +46,4 @@ std::vector<Margin> weakest_of_kinds(const Margins& margins);
 /// In words, every kind of member whose margin of safety is below 0.
 std::vector<std::string> margin_warnings(const std::optional<Margins>& margins);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -9,7 +9,7 @@
 
 #include "ripstop/case/settings.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
@@ -75,4 +75,4 @@ double cells_across(const Settings& resolved) {
   return inflated_diameter(resolved.parachute()) / flow_grid(resolved.flow()).spacing({0, 0, place}).x;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -7,7 +7,7 @@
 
 #include "ripstop/case/settings.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 /// One measure. Above `warn` (below it where `at_least`) the result has a warning; beyond `refuse` it must not be used,
 /// and the command ends with ExitCode::not_converged.
@@ -47,4 +47,4 @@ Judgement judge(const std::vector<QualityValue>& values);
 /// Cells of the flow's grid across the inflated canopy.
 double cells_across(const Settings& resolved);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

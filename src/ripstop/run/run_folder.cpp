@@ -13,7 +13,7 @@
 #include "ripstop/core/hash.h"
 #include "ripstop/run/report/report.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 using nlohmann::ordered_json;
@@ -157,4 +157,4 @@ std::optional<std::string> finished_result(const fs::path& folder) {
   return text;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -14,7 +14,7 @@
 #include "ripstop/output/plot.h"
 #include "ripstop/output/vtk.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 struct RunSettings {
   std::filesystem::path folder;
@@ -90,4 +90,4 @@ void refuse_lost(const ClaimedFolder& folder);
 /// lost or changed since, or is of other inputs than the folder.
 std::optional<std::string> finished_result(const std::filesystem::path& folder);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -2,7 +2,7 @@
 
 #include "ripstop/canopy/stress.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 std::vector<VtkArray> stress_arrays(const Mesh& mesh, const std::vector<Vec3>& positions,
                                     const std::vector<CellStress>& stress) {
@@ -31,4 +31,4 @@ std::vector<VtkArray> stress_arrays(const Mesh& mesh, const std::vector<Vec3>& p
   return arrays;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

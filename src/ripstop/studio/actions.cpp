@@ -21,7 +21,7 @@
 #include "ripstop/core/toml/set.h"
 #include "ripstop/studio/case_edit.h"
 
-namespace ripstop {
+namespace ripstop::inline studio {
 namespace {
 
 namespace fs = std::filesystem;
@@ -287,4 +287,4 @@ std::string Actions::export_pattern(const std::string& file) {
   return text_of({{"folder", (folder_ / name).string()}});
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline studio

@@ -14,7 +14,7 @@
 #include "ripstop/studio/jobs.h"
 #include "ripstop/studio/live_shape.h"
 
-namespace ripstop {
+namespace ripstop::inline studio {
 
 /// A case file has changed since the page read it.
 struct Conflict : Error {
@@ -108,4 +108,4 @@ void require_name(const std::string& name);
 /// JSON {"error": ...} of a message.
 std::string error_json(const std::string& message);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline studio

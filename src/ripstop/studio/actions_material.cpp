@@ -12,7 +12,7 @@
 #include "ripstop/output/csv.h"
 #include "ripstop/studio/actions.h"
 
-namespace ripstop {
+namespace ripstop::inline studio {
 namespace {
 
 namespace fs = std::filesystem;
@@ -130,4 +130,4 @@ std::string Actions::fit(const std::string& request) const {
   }
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline studio

@@ -14,7 +14,7 @@
 #include "ripstop/run/report/progress.h"
 #include "ripstop/studio/actions.h"
 
-namespace ripstop {
+namespace ripstop::inline studio {
 namespace {
 
 namespace fs = std::filesystem;
@@ -193,4 +193,4 @@ std::string Actions::report(const std::vector<std::string>& runs) const {
   return page;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline studio

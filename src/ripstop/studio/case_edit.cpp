@@ -9,7 +9,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/toml/document.h"
 
-namespace ripstop {
+namespace ripstop::inline studio {
 namespace {
 
 /// A part of the text: [begin, end).
@@ -249,4 +249,4 @@ std::string without_key(const std::string& text, const std::string& key) {
   return verified(text, std::move(changed), key, {});
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline studio

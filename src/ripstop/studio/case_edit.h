@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-namespace ripstop {
+namespace ripstop::inline studio {
 
 /// Every value of the file by its full name ("parachute.lines.count"), as it is written there. Throws
 /// InputError(usage) for a mistake in the syntax.
@@ -18,4 +18,4 @@ std::string with_key(const std::string& text, const std::string& key, const std:
 /// others.
 std::string without_key(const std::string& text, const std::string& key);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline studio

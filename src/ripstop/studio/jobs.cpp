@@ -12,7 +12,7 @@
 #include "ripstop/core/file.h"
 #include "ripstop/core/process.h"
 
-namespace ripstop {
+namespace ripstop::inline studio {
 namespace {
 
 namespace fs = std::filesystem;
@@ -229,4 +229,4 @@ void JobQueue::run(const Job& job) {
   }
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline studio

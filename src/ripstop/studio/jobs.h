@@ -11,7 +11,7 @@
 
 #include "ripstop/core/claimed_folder.h"
 
-namespace ripstop {
+namespace ripstop::inline studio {
 
 enum class JobState { queued, running, finished, not_converged, stopped, failed };
 
@@ -62,4 +62,4 @@ class JobQueue {
   std::thread worker_;
 };
 
-}  // namespace ripstop
+}  // namespace ripstop::inline studio

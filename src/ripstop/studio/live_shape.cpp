@@ -13,7 +13,7 @@
 #include "ripstop/report/report.h"
 #include "ripstop/report/shape_view.h"
 
-namespace ripstop {
+namespace ripstop::inline studio {
 namespace {
 
 constexpr std::size_t most_views = 4;
@@ -176,4 +176,4 @@ std::shared_ptr<LiveShape> LiveShapes::of(const std::string& view) {
   return views_.front().second;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline studio

@@ -14,7 +14,7 @@
 #include "ripstop/case/settings.h"
 #include "ripstop/run/sizing/fabric.h"
 
-namespace ripstop {
+namespace ripstop::inline studio {
 
 /// Computes the shape under a uniform pressure (run_fabric_from) in a thread of its own, from the last shape of a canopy
 /// with the same nodes and springs. One computation at a time: a new one ends that before it.
@@ -73,4 +73,4 @@ class LiveShapes {
   std::list<std::pair<std::string, std::shared_ptr<LiveShape>>> views_;  // the most recent first
 };
 
-}  // namespace ripstop
+}  // namespace ripstop::inline studio

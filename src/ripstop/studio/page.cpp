@@ -23,7 +23,7 @@ RIPSTOP_STUDIO_FILE(ripstop_studio_design, "design.js")
 RIPSTOP_STUDIO_FILE(ripstop_studio_runs, "runs.js")
 RIPSTOP_STUDIO_FILE(ripstop_studio_main, "main.js")
 
-namespace ripstop {
+namespace ripstop::inline studio {
 namespace {
 
 /// A file of the page: the built-in one, or that of the folder $RIPSTOP_STUDIO_PAGE for work on the page.
@@ -62,4 +62,4 @@ std::string studio_page(const std::string& nonce) {
   return page + "</body>\n</html>\n";
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline studio

@@ -18,7 +18,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/studio/actions.h"
 
-namespace ripstop {
+namespace ripstop::inline studio {
 namespace {
 
 using httplib::Request;
@@ -298,4 +298,4 @@ void StudioServer::stop() {
   parts_->server.stop();
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline studio

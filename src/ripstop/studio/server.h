@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-namespace ripstop {
+namespace ripstop::inline studio {
 
 /// Requests need a random token, this server's own Host and no other Origin; bodies are JSON of at most 2 MiB, or 24 MiB of
 /// tensile records.
@@ -36,4 +36,4 @@ class StudioServer {
 /// The page with its scripts; only scripts with the nonce run.
 std::string studio_page(const std::string& nonce);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline studio

@@ -8,7 +8,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/flow/boundaries.h"
 
-namespace ripstop {
+namespace ripstop::inline flow {
 namespace {
 
 std::vector<std::unique_ptr<BoundaryRecord>> standard_boundaries() {
@@ -57,9 +57,9 @@ Sides sides_of(const FlowProblem& problem) {
   return problem.air.along_z() ? problem.sides : Sides::far_field;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 namespace {
 
 /// Beyond the inlet 2 q_inlet - q; beyond the outlet q where air leaves,
@@ -322,4 +322,4 @@ Vec3 momentum_deficit(const Discretisation& d, const Boundaries& b, const State&
   return {across.x, across.y, through_inlet_and_outlet(d, b, s) + sides.z};
 }
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

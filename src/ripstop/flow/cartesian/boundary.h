@@ -10,7 +10,7 @@
 #include "ripstop/flow/cartesian/multigrid.h"
 #include "ripstop/flow/cartesian/state.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 
 /// The undisturbed air, wherever it comes in.
 struct Stream {
@@ -149,4 +149,4 @@ Vec3 pressed_in(const Discretisation& d, const Boundaries& b, const State& s, bo
 /// is inside [N].
 Vec3 momentum_deficit(const Discretisation& d, const Boundaries& b, const State& s);
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

@@ -6,7 +6,7 @@
 
 #include "ripstop/flow/flow.h"
 
-namespace ripstop {
+namespace ripstop::inline flow {
 
 struct CartesianSettings {
   int threads = 0;              // 0: as many as the process may run on
@@ -24,4 +24,4 @@ struct CartesianSettings {
 /// Throws Error(usage) for settings outside their ranges.
 std::unique_ptr<FlowEngine> make_cartesian(const CartesianSettings& settings = {});
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

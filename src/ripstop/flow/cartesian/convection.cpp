@@ -12,7 +12,7 @@
 #include "ripstop/flow/cartesian/simd.h"
 #include "ripstop/flow/cartesian/solver.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 namespace {
 
 // Difference of the face value from the upwind one, times the flux. `ratio` is 0 without a second cell.
@@ -83,4 +83,4 @@ void Solver::convection(int j, int k) {
       add(s_.f.w, in_the_way_.body_w, t_.extra_w);
 }
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

@@ -1,6 +1,6 @@
 #include "ripstop/flow/cartesian/discretisation.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 
 Discretisation::Discretisation(const FlowGrid& grid_, const Freestream& air_,
                                const CartesianSettings& settings_, End side, bool open, bool quarter_)
@@ -41,4 +41,4 @@ RowMetrics Discretisation::metrics(int j, int k, const Axis& along_x, const Axis
   return m;
 }
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

@@ -5,7 +5,7 @@
 #include "ripstop/flow/cartesian/grid.h"
 #include "ripstop/flow/cartesian/rows.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 
 constexpr double heat_capacity = 1007;  // c_p of air [J/(kg K)]
 
@@ -31,4 +31,4 @@ struct Discretisation {
   RowMetrics metrics(int j, int k, const Axis& along_x, const Axis& along_y, const Axis& along_z) const;
 };
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

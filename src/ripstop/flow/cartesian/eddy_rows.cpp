@@ -9,7 +9,7 @@
 #include "ripstop/flow/cartesian/row_parts.h"
 #include "ripstop/flow/cartesian/time_rows.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 namespace {
 
 constexpr double least = 1e-30;  // [1/s5], keeps 0/0 out of air at rest
@@ -50,4 +50,4 @@ RIPSTOP_ROW_KERNEL void eddy_row(const EddyRow& given) {
   });
 }
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

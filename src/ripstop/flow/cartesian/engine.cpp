@@ -16,7 +16,7 @@
 #include "ripstop/flow/cartesian/solver.h"
 #include "ripstop/flow/symmetry.h"
 
-namespace ripstop {
+namespace ripstop::inline flow {
 namespace {
 
 using namespace cartesian;
@@ -450,4 +450,4 @@ std::unique_ptr<FlowEngine> make_cartesian(const CartesianSettings& settings) {
   return std::make_unique<CartesianEngine>(settings);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

@@ -15,7 +15,7 @@
 
 #include "ripstop/flow/cartesian/boundary.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 namespace {
 
 constexpr double taken = 0.5;  // of the change of the pressure in a face
@@ -95,4 +95,4 @@ std::unique_ptr<SideBoundary> far_field() {
   return std::make_unique<FarField>(true);
 }
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

@@ -6,7 +6,7 @@
 
 #include "ripstop/core/error.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 
 Axis make_axis(std::vector<double> edges, End low, End high) {
   Axis axis;
@@ -54,4 +54,4 @@ Axis make_axis(std::vector<double> edges, End low, End high) {
 Layout::Layout(int nx_, int ny_, int nz_)
     : nx(nx_), ny(ny_), nz(nz_), stride_y((lead + nx_ + 1 + 7) / 8 * 8), stride_z(stride_y * (ny_ + 2)) {}
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

@@ -6,7 +6,7 @@
 
 #include "ripstop/flow/cartesian/memory.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 
 /// Condition of a variable at one end of an axis.
 enum class End { zero_gradient, fixed_value };
@@ -52,4 +52,4 @@ struct Layout {
   }
 };
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

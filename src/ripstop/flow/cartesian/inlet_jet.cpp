@@ -4,7 +4,7 @@
 
 #include "ripstop/flow/cartesian/boundary.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 
 Inlet jet_inlet(const Discretisation& d, const Jet& jet) {
   Inlet inlet = uniform_inlet(d);
@@ -23,4 +23,4 @@ Inlet jet_inlet(const Discretisation& d, const Jet& jet) {
   return inlet;
 }
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

@@ -3,7 +3,7 @@
 
 #include "ripstop/flow/cartesian/boundary.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 
 Inlet::Inlet(const Layout& layout_)
     : layout(layout_),
@@ -27,4 +27,4 @@ Inlet uniform_inlet(const Discretisation& d) {
   return inlet;
 }
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

@@ -4,7 +4,7 @@
 
 #include "ripstop/flow/cartesian/simd.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 
 /// cell(i) for the cells of a row, several at once: a lambda with RIPSTOP_CELL.
 template <class Cell>
@@ -33,4 +33,4 @@ template <bool none = false, class Cell>
   return {a, b, c, d, e, f, largest};
 }
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 namespace {
 
 /// Another axis is chosen if the component of the stream along it exceeds that along +z by this ratio.
@@ -145,4 +145,4 @@ FlowField MarchFrame::back(FlowField field, const FlowGrid& grid) const {
   return field;
 }
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

@@ -9,7 +9,7 @@
 #include "ripstop/core/vec3.h"
 #include "ripstop/flow/flow.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 
 class MarchFrame {
  public:
@@ -47,4 +47,4 @@ class MarchFrame {
   std::array<int, 3> sign_{1, 1, 1};
 };
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <new>
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 namespace {
 
 constexpr std::size_t line = 64;
@@ -37,4 +37,4 @@ void free_field(void* memory) {
   if (memory != nullptr) std::free(reinterpret_cast<void**>(memory)[-1]);
 }
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 
 /// Aligned to 64 bytes, not initialised. Throws std::bad_alloc.
 void* allocate_field(std::size_t bytes);
@@ -25,4 +25,4 @@ struct FieldAllocator {
 template <class T>
 using Array = std::vector<T, FieldAllocator<T>>;
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

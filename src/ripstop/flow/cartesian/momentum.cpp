@@ -12,7 +12,7 @@
 
 #include "ripstop/flow/cartesian/row_parts.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 namespace {
 
 // a_nb of upwind convection and diffusion through the faces of a cell [kg/(m3 s)].
@@ -115,4 +115,4 @@ MomentumSums momentum_row(const MomentumRow& row) {
   return row.sheet.held ? sheet_row(row) : plain_row(row);
 }
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

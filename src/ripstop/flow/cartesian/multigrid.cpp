@@ -5,7 +5,7 @@
 
 #include "ripstop/flow/cartesian/multigrid_rows.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 namespace {
 
 constexpr int coarsest_cells = 32;   // below that, smoothing alone
@@ -365,4 +365,4 @@ double Multigrid::residual() const {
   return total;
 }
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

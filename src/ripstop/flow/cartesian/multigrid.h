@@ -12,7 +12,7 @@
 #include "ripstop/core/thread_team.h"
 #include "ripstop/flow/cartesian/grid.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 
 struct MultigridLevel {
   Layout layout;
@@ -69,4 +69,4 @@ class Multigrid {
   std::vector<Sums> planes_;
 };
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

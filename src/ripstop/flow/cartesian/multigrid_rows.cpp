@@ -3,7 +3,7 @@
 #include "ripstop/flow/cartesian/loops.h"
 #include "ripstop/flow/cartesian/simd.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 
 RIPSTOP_ROW_KERNEL void smooth_row(const MultigridRow& row, int parity) {
   const int n = row.n;
@@ -116,4 +116,4 @@ RIPSTOP_ROW_KERNEL double advance_row(int n, float factor, const float* directio
   return sum_cells(n, advance).a;
 }
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

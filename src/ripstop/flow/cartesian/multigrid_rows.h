@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 
 struct MultigridRow {
   int n = 0;
@@ -36,4 +36,4 @@ void mix_rows(int n, const float* a, const float* b, const float* c, const float
 void spread_row(int n, const float* q, const int* near, const int* far, const float* near_weight,
                 const float* far_weight, float* e);
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

@@ -2,7 +2,7 @@
 // static pressure held instead, it would come in ever faster.
 #include "ripstop/flow/cartesian/boundary.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 namespace {
 
 class StillAir final : public OutletBoundary {
@@ -24,4 +24,4 @@ std::unique_ptr<OutletBoundary> still_air_outlet() {
   return std::make_unique<StillAir>();
 }
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

@@ -7,7 +7,7 @@
 
 #include "ripstop/core/error.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 
 void PorousRows::add_row(int j, int k) {
   std::size_t& offset = offset_[row(j, k)];
@@ -95,4 +95,4 @@ PorousRows::PorousRows(const PorousRows& fine, const FlowGrid& fine_grid, const 
   }
 }
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

@@ -7,7 +7,7 @@
 #include "ripstop/flow/cartesian/views.h"
 #include "ripstop/flow/flow.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 
 /// Resistance R = linear + rho |U| quadratic [kg/(m3 s)] in each cell.
 class PorousRows {
@@ -35,4 +35,4 @@ class PorousRows {
   std::vector<double> linear_, quadratic_;  // rows of nx values
 };
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

@@ -14,7 +14,7 @@
 
 #include "ripstop/flow/cartesian/row_parts.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 namespace {
 
 // rho q on a face between two cells, interpolated linearly. `own` is rho q of the cell that looks.
@@ -303,4 +303,4 @@ RIPSTOP_ROW_KERNEL void outlet_flux_row(const FluxRow& row, double inverse_dista
   });
 }
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

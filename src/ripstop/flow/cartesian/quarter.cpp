@@ -4,7 +4,7 @@
 #include <tuple>
 #include <utility>
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 namespace {
 
 using Place = std::tuple<int, int, int, int>;  // axis and cell
@@ -117,4 +117,4 @@ std::vector<std::array<int, images>> take_quarter(std::vector<SheetFace>& faces,
   return triangles;
 }
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

@@ -8,7 +8,7 @@
 #include "ripstop/flow/cartesian/sheet_faces.h"
 #include "ripstop/flow/flow.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 
 /// Of a vector in the mirrors: bit 0 of `image` is that of x, bit 1 that of y.
 inline constexpr int images = 4;  // of a point, itself included
@@ -27,4 +27,4 @@ FlowField whole_of(FlowField quarter, const FlowGrid& whole);
 /// it. Returns the triangle of each image of every face that is left.
 std::vector<std::array<int, images>> take_quarter(std::vector<SheetFace>& faces, int nx, int ny);
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

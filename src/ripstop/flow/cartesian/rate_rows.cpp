@@ -9,7 +9,7 @@
 #include "ripstop/flow/cartesian/row_parts.h"
 #include "ripstop/flow/cartesian/time_rows.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 namespace {
 
 constexpr double from_upstream = 0.25, linear = 1 - from_upstream;
@@ -164,4 +164,4 @@ RIPSTOP_ROW_KERNEL CourantSums courant_row(const RowMetrics& metrics, VectorView
   return {sums.largest, sums.a};
 }
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

@@ -10,7 +10,7 @@
 #include "ripstop/flow/cartesian/rows.h"
 #include "ripstop/flow/cartesian/simd.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 
 struct Gradient {
   double x, y, z;
@@ -67,4 +67,4 @@ template <class Number>
          a.a * q.above[i];
 }
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

@@ -8,7 +8,7 @@
 #include "ripstop/flow/cartesian/grid.h"
 #include "ripstop/flow/cartesian/views.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 
 /// Metrics of an axis across the row: those of cell c, as plain numbers.
 struct CrossMetrics {
@@ -169,4 +169,4 @@ struct VelocitySums {
 };
 VelocitySums velocity_row(const VelocityRow& row);
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

@@ -11,7 +11,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/flow/cartesian/state.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 namespace {
 
 double along(int axis, Vec3 v) {
@@ -404,4 +404,4 @@ std::vector<SheetLoad> SheetRows::loads(const State& state, const Layout& layout
   return result;
 }
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

@@ -13,7 +13,7 @@
 #include "ripstop/flow/cartesian/sheet_faces.h"
 #include "ripstop/flow/flow.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 
 struct State;
 
@@ -94,4 +94,4 @@ class SheetRows {
   bool shut_ = false;
 };
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

@@ -13,7 +13,7 @@
 #include "ripstop/core/checked_int.h"
 #include "ripstop/flow/hems.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 namespace {
 
 constexpr int lines = 5;  // a cell and direction; odd, so that one goes through the centre
@@ -497,4 +497,4 @@ std::vector<SheetFace> sheet_faces(const Axis& x, const Axis& y, const Axis& z,
   return result;
 }
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

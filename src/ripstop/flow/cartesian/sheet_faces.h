@@ -6,7 +6,7 @@
 #include "ripstop/flow/cartesian/grid.h"
 #include "ripstop/flow/flow.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 
 /// A face whose two cell centres lie on either side of the sheet.
 struct SheetFace {
@@ -35,4 +35,4 @@ struct SheetFace {
 std::vector<SheetFace> sheet_faces(const Axis& x, const Axis& y, const Axis& z,
                                    const std::vector<Triangle>& surface);
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

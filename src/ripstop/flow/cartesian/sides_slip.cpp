@@ -1,7 +1,7 @@
 // Walls without friction: nothing passes.
 #include "ripstop/flow/cartesian/boundary.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 namespace {
 
 class Slip final : public SideBoundary {
@@ -15,4 +15,4 @@ std::unique_ptr<SideBoundary> slip_sides() {
   return std::make_unique<Slip>();
 }
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

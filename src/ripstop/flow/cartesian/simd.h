@@ -11,7 +11,7 @@
 // The equations of one cell, a lambda: [&](int i) RIPSTOP_CELL { ... }
 #define RIPSTOP_CELL __attribute__((always_inline))
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 
 // Always inlined, so that they are compiled for the level of the kernel that calls them. Ternaries, because
 // std::max takes references and keeps loops from being vectorised.
@@ -25,4 +25,4 @@ namespace ripstop::cartesian {
   return a > b ? a : b;
 }
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

@@ -9,7 +9,7 @@
 #include "ripstop/flow/cartesian/quarter.h"
 #include "ripstop/flow/cartesian/solver.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 namespace {
 
 /// Half steps after a start with a sheet: the initial pressure does not yet balance the drop of the cloth,
@@ -294,4 +294,4 @@ void Solver::draw_cells(FlowField& field, double share) const {
   });
 }
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

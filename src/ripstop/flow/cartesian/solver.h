@@ -16,7 +16,7 @@
 #include "ripstop/flow/cartesian/sums.h"
 #include "ripstop/flow/cartesian/time_rows.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 
 /// Bodies and forces in the flow.
 struct Obstacles {
@@ -232,4 +232,4 @@ void Solver::each_row(int rank, const Kernel& kernel) {
   });
 }
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

@@ -5,7 +5,7 @@
 
 #include "ripstop/flow/cartesian/solver.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 
 void Solver::matrix_ghosts(int k) {
   const double mirror = b_.sides->mirror();
@@ -144,4 +144,4 @@ Vec3 Solver::porous_force_of_row(int j, int k) const {
   return (d_.y.width[j] * d_.z.width[k]) * force;
 }
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

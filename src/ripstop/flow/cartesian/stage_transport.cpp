@@ -12,7 +12,7 @@
 
 #include "ripstop/flow/cartesian/solver.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 namespace {
 
 /// Across the march most neighbours of a cell are old values. Their share of the convection grows with the angle of the
@@ -227,4 +227,4 @@ void Solver::momentum(MarchRings& rings, int k, IndexRange rows) {
   });
 }
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

@@ -5,7 +5,7 @@
 #include "ripstop/core/thread_team.h"
 #include "ripstop/flow/cartesian/discretisation.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 namespace {
 
 /// Weights of two values of an axis (ghosts included) around a point of another one.
@@ -127,4 +127,4 @@ void scale(State& s, const Freestream& from, const Freestream& to) {
   m.u *= speed, m.v *= speed, m.w *= speed, m.p *= pressure, m.k *= speed * speed, m.omega *= speed;
 }
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

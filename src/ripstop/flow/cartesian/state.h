@@ -10,7 +10,7 @@
 #include "ripstop/flow/cartesian/views.h"
 #include "ripstop/flow/flow.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 
 struct Discretisation;
 
@@ -90,4 +90,4 @@ void interpolate(const State& from, const Discretisation& of, State& to, const D
 /// The same grid, other air: everything is multiplied by its scale.
 void scale(State& state, const Freestream& from, const Freestream& to);
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

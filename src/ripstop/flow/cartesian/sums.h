@@ -6,7 +6,7 @@
 
 #include "ripstop/core/thread_team.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 
 struct Sums {
   enum Name {
@@ -74,4 +74,4 @@ class SumTable {
   Sums total_;
 };
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

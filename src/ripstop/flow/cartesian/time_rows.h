@@ -5,7 +5,7 @@
 
 #include "ripstop/flow/cartesian/rows.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 
 /// Viscosity of unresolved eddies from the velocity gradient, and the part of the stress whose normal
 /// derivative is not that of the component itself.
@@ -74,4 +74,4 @@ struct CourantSums {
 };
 CourantSums courant_row(const RowMetrics& m, VectorView<const double> flux);
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

@@ -14,7 +14,7 @@
 
 #include "ripstop/flow/cartesian/solver.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 namespace {
 
 constexpr double mixing_constant = 0.325;  // C_w, WALE with the linear schemes of a finite-volume code
@@ -335,4 +335,4 @@ FlowStep Solver::close_step(Vec3 velocity_before, Vec3 held_back) {
   return step;
 }
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

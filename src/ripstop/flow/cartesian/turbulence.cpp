@@ -21,7 +21,7 @@
 
 #include "ripstop/flow/cartesian/row_parts.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 namespace {
 
 constexpr double sigma_k = 1.0;
@@ -224,4 +224,4 @@ TurbulenceSums turbulence_row(const TurbulenceRow& row) {
   return row.wall ? wall_row(row) : open_row(row);
 }
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

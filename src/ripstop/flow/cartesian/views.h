@@ -10,7 +10,7 @@
 
 #include "ripstop/flow/cartesian/memory.h"
 
-namespace ripstop::cartesian {
+namespace ripstop::inline flow::cartesian {
 
 /// Three quantities along a row: a vector in its cells, or the fluxes through the low faces across x, y and z.
 template <class Number>
@@ -83,4 +83,4 @@ struct StressView {
   operator StressView<const Number>() const { return {x, y, z, component}; }
 };
 
-}  // namespace ripstop::cartesian
+}  // namespace ripstop::inline flow::cartesian

@@ -13,7 +13,7 @@
 #include "ripstop/flow/cartesian/sheet_faces.h"
 #include "ripstop/flow/openfoam/foam_file.h"
 
-namespace ripstop::openfoam {
+namespace ripstop::inline flow::openfoam {
 namespace {
 
 namespace fs = std::filesystem;
@@ -283,4 +283,4 @@ void write_mesh(const fs::path& folder, const FlowGrid& grid, const std::vector<
   write_file(folder / "boundary", foam_header("polyBoundaryMesh", "boundary", "ascii") + boundary + ")\n");
 }
 
-}  // namespace ripstop::openfoam
+}  // namespace ripstop::inline flow::openfoam

@@ -7,7 +7,7 @@
 
 #include "ripstop/flow/flow.h"
 
-namespace ripstop::openfoam {
+namespace ripstop::inline flow::openfoam {
 
 /// Representation of a sheet in one face of the mesh.
 struct Layer {
@@ -58,4 +58,4 @@ double passing(const Baffle& baffle, const std::vector<FlowBody>& bodies, double
 void write_mesh(const std::filesystem::path& folder, const FlowGrid& grid,
                 const std::vector<BafflePatch>& patches);
 
-}  // namespace ripstop::openfoam
+}  // namespace ripstop::inline flow::openfoam

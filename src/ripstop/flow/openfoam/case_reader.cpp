@@ -9,7 +9,7 @@
 #include "ripstop/flow/boundaries.h"
 #include "ripstop/flow/openfoam/case_writer.h"
 
-namespace ripstop::openfoam {
+namespace ripstop::inline flow::openfoam {
 namespace {
 
 namespace fs = std::filesystem;
@@ -177,4 +177,4 @@ FlowField read_case(const std::vector<MeshPart>& parts, const std::string& time,
   return field;
 }
 
-}  // namespace ripstop::openfoam
+}  // namespace ripstop::inline flow::openfoam

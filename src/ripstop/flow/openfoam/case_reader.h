@@ -9,7 +9,7 @@
 #include "ripstop/flow/flow.h"
 #include "ripstop/flow/openfoam/field_file.h"
 
-namespace ripstop::openfoam {
+namespace ripstop::inline flow::openfoam {
 
 /// One part of the mesh: the whole of it, or that of one rank.
 struct MeshPart {
@@ -41,4 +41,4 @@ std::string latest_time(const std::filesystem::path& folder);
 FlowField read_case(const std::vector<MeshPart>& parts, const std::string& time, const FlowProblem& problem,
                     bool incompressible);
 
-}  // namespace ripstop::openfoam
+}  // namespace ripstop::inline flow::openfoam

@@ -13,7 +13,7 @@
 #include "ripstop/flow/openfoam/installation.h"
 #include "ripstop/flow/openfoam/openfoam.h"
 
-namespace ripstop::openfoam {
+namespace ripstop::inline flow::openfoam {
 namespace {
 
 namespace fs = std::filesystem;
@@ -461,4 +461,4 @@ void write_zones(const fs::path& folder, const std::vector<std::vector<int>>& zo
   write_dictionary(folder / "cellZones", "regIOobject", body + ")\n");
 }
 
-}  // namespace ripstop::openfoam
+}  // namespace ripstop::inline flow::openfoam

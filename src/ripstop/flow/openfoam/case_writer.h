@@ -10,7 +10,7 @@
 #include "ripstop/flow/flow.h"
 #include "ripstop/flow/openfoam/openfoam.h"
 
-namespace ripstop::openfoam {
+namespace ripstop::inline flow::openfoam {
 
 /// Static pressure at the outlet of a compressible case [Pa].
 double outlet_pressure(const Freestream& air);
@@ -56,4 +56,4 @@ inline constexpr double kLowestPressure = 0.5, kHighestPressure = 2;
 inline constexpr const char* kStopFile = "stop";
 inline constexpr const char* kReadme = "README.txt";  // its presence marks a case as ours
 
-}  // namespace ripstop::openfoam
+}  // namespace ripstop::inline flow::openfoam

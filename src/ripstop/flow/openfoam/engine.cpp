@@ -18,7 +18,7 @@
 #include "ripstop/flow/openfoam/solver_log.h"
 #include "ripstop/flow/openfoam/state.h"
 
-namespace ripstop {
+namespace ripstop::inline flow {
 namespace {
 
 namespace fs = std::filesystem;
@@ -209,4 +209,4 @@ std::unique_ptr<FlowEngine> make_openfoam(const OpenFoamSettings& settings) {
   return std::make_unique<OpenFoam>(settings);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

@@ -13,7 +13,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 
-namespace ripstop::openfoam {
+namespace ripstop::inline flow::openfoam {
 namespace {
 
 /// Walks through one OpenFOAM file: tokens are words, numbers and single punctuation characters; binary
@@ -342,4 +342,4 @@ std::vector<Patch> read_boundary(const std::filesystem::path& path) {
   return patches;
 }
 
-}  // namespace ripstop::openfoam
+}  // namespace ripstop::inline flow::openfoam

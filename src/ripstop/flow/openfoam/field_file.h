@@ -8,7 +8,7 @@
 
 #include "ripstop/core/vec3.h"
 
-namespace ripstop::openfoam {
+namespace ripstop::inline flow::openfoam {
 
 /// Values of one field on cells (or inner faces) and patches, `components` numbers a value. A uniform list is
 /// kept as one value: see at().
@@ -55,4 +55,4 @@ struct Patch {
 /// polyMesh/boundary.
 std::vector<Patch> read_boundary(const std::filesystem::path& path);
 
-}  // namespace ripstop::openfoam
+}  // namespace ripstop::inline flow::openfoam

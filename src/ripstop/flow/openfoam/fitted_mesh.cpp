@@ -18,7 +18,7 @@
 #include "ripstop/flow/openfoam/field_file.h"
 #include "ripstop/flow/stl.h"
 
-namespace ripstop::openfoam {
+namespace ripstop::inline flow::openfoam {
 namespace {
 
 namespace fs = std::filesystem;
@@ -481,9 +481,9 @@ FittedMesh read_fitted_mesh(const fs::path& folder, const FlowProblem& problem) 
   return mesh;
 }
 
-}  // namespace ripstop::openfoam
+}  // namespace ripstop::inline flow::openfoam
 
-namespace ripstop {
+namespace ripstop::inline flow {
 
 double fitted_cells(const FlowGrid& grid, double cloth_area, int levels) {
   // Measured (log.checkMesh): 6.6 to 8.2 at canopies of 14 to 28 cells across, 10.4 at a cup of 4.
@@ -495,4 +495,4 @@ double fitted_cells(const FlowGrid& grid, double cloth_area, int levels) {
   return cells;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

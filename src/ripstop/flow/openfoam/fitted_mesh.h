@@ -10,7 +10,7 @@
 #include "ripstop/flow/openfoam/case_reader.h"
 #include "ripstop/flow/openfoam/programs.h"
 
-namespace ripstop::openfoam {
+namespace ripstop::inline flow::openfoam {
 
 /// Makes constant/polyMesh of the case in `folder`, which contains system/blockMeshDict of the grid, with the patches
 /// inlet, outlet, sides and of every sheet clothN_low and clothN_high. `levels`: times that the cells at the cloth
@@ -28,4 +28,4 @@ struct FittedMesh {
 /// coarse for the cloth.
 FittedMesh read_fitted_mesh(const std::filesystem::path& folder, const FlowProblem& problem);
 
-}  // namespace ripstop::openfoam
+}  // namespace ripstop::inline flow::openfoam

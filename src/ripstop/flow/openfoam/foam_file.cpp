@@ -4,7 +4,7 @@
 
 #include <bit>
 
-namespace ripstop::openfoam {
+namespace ripstop::inline flow::openfoam {
 namespace {
 
 static_assert(std::endian::native == std::endian::little && sizeof(int) == 4 && sizeof(double) == 8);
@@ -35,4 +35,4 @@ std::string binary_list(const std::vector<double>& numbers, int components) {
   return list(numbers, numbers.size() / static_cast<std::size_t>(components));
 }
 
-}  // namespace ripstop::openfoam
+}  // namespace ripstop::inline flow::openfoam

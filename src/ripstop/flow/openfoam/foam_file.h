@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace ripstop::openfoam {
+namespace ripstop::inline flow::openfoam {
 
 /// The head of a file; `format`: "ascii" or "binary".
 std::string foam_header(const std::string& kind, const std::string& object, const std::string& format,
@@ -13,4 +13,4 @@ std::string foam_header(const std::string& kind, const std::string& object, cons
 std::string binary_list(const std::vector<int>& labels);
 std::string binary_list(const std::vector<double>& numbers, int components);
 
-}  // namespace ripstop::openfoam
+}  // namespace ripstop::inline flow::openfoam

@@ -10,7 +10,7 @@
 #include "ripstop/core/toml/document.h"
 #include "ripstop/core/toml/problem.h"
 
-namespace ripstop::openfoam {
+namespace ripstop::inline flow::openfoam {
 namespace {
 
 constexpr int most_slots = 4096;
@@ -120,4 +120,4 @@ void require_slots(const std::filesystem::path& file, int ranks) {
                     slots == 1 ? "" : "s", ranks, slots));
 }
 
-}  // namespace ripstop::openfoam
+}  // namespace ripstop::inline flow::openfoam

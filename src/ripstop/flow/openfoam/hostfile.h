@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace ripstop::openfoam {
+namespace ripstop::inline flow::openfoam {
 
 struct Host {
   std::string name;
@@ -20,4 +20,4 @@ std::vector<Host> parse_hosts(const std::string& text, const std::string& file);
 /// Throws as parse_hosts() does, and Error(usage) where all hosts together have fewer slots than ranks.
 void require_slots(const std::filesystem::path& file, int ranks);
 
-}  // namespace ripstop::openfoam
+}  // namespace ripstop::inline flow::openfoam

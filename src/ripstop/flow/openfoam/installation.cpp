@@ -10,7 +10,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/process.h"
 
-namespace ripstop::openfoam {
+namespace ripstop::inline flow::openfoam {
 namespace {
 
 namespace fs = std::filesystem;
@@ -114,4 +114,4 @@ Installation find_installation(const fs::path& program_folder, bool parallel, bo
   return installation;
 }
 
-}  // namespace ripstop::openfoam
+}  // namespace ripstop::inline flow::openfoam

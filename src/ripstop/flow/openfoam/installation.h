@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace ripstop::openfoam {
+namespace ripstop::inline flow::openfoam {
 
 struct Installation {
   std::filesystem::path folder;   // of the programs; empty: PATH
@@ -29,4 +29,4 @@ std::filesystem::path program(const Installation& installation, const std::strin
 /// Environment of its programs.
 std::vector<std::pair<std::string, std::string>> environment(const Installation& installation);
 
-}  // namespace ripstop::openfoam
+}  // namespace ripstop::inline flow::openfoam

@@ -7,7 +7,7 @@
 
 #include "ripstop/flow/flow.h"
 
-namespace ripstop {
+namespace ripstop::inline flow {
 
 struct OpenFoamSettings {
   std::filesystem::path folder;  // the case; made by us, or one that we made before (it is then overwritten)
@@ -34,4 +34,4 @@ std::unique_ptr<FlowEngine> make_openfoam(const OpenFoamSettings& settings);
 /// Approximate number of cells of a fitted mesh on a grid, with the cells at `cloth_area` [m2] halved `levels` times.
 double fitted_cells(const FlowGrid& grid, double cloth_area, int levels);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline flow

@@ -10,7 +10,7 @@
 #include "ripstop/core/file.h"
 #include "ripstop/flow/openfoam/case_writer.h"
 
-namespace ripstop::openfoam {
+namespace ripstop::inline flow::openfoam {
 
 namespace fs = std::filesystem;
 
@@ -135,4 +135,4 @@ void Programs::explain_failure(const ProcessResult& result, const SolverLog& log
   }
 }
 
-}  // namespace ripstop::openfoam
+}  // namespace ripstop::inline flow::openfoam

@@ -11,7 +11,7 @@
 #include "ripstop/flow/openfoam/openfoam.h"
 #include "ripstop/flow/openfoam/solver_log.h"
 
-namespace ripstop::openfoam {
+namespace ripstop::inline flow::openfoam {
 
 /// Removes the files of OpenFOAM and of Ripstop; only for a folder of Ripstop.
 void clear_case(const std::filesystem::path& folder);
@@ -48,4 +48,4 @@ class Programs {
   Installation installation_;
 };
 
-}  // namespace ripstop::openfoam
+}  // namespace ripstop::inline flow::openfoam

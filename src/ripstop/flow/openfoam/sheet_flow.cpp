@@ -16,7 +16,7 @@
 #include "ripstop/flow/openfoam/programs.h"
 #include "ripstop/flow/openfoam/state.h"
 
-namespace ripstop::openfoam {
+namespace ripstop::inline flow::openfoam {
 namespace {
 
 namespace fs = std::filesystem;
@@ -402,4 +402,4 @@ std::unique_ptr<Flow> start_sheet_flow(const FlowProblem& problem, const OpenFoa
   return std::make_unique<SheetFlow>(problem, settings, folder, with_simple_foam(installation, settings));
 }
 
-}  // namespace ripstop::openfoam
+}  // namespace ripstop::inline flow::openfoam

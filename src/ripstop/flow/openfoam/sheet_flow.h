@@ -8,11 +8,11 @@
 #include "ripstop/flow/openfoam/installation.h"
 #include "ripstop/flow/openfoam/openfoam.h"
 
-namespace ripstop::openfoam {
+namespace ripstop::inline flow::openfoam {
 
 /// A flow of constant density. It owns `folder`, the case of OpenFOAM. Throws Error(usage) for unsupported
 /// features.
 std::unique_ptr<Flow> start_sheet_flow(const FlowProblem& problem, const OpenFoamSettings& settings,
                                        const std::filesystem::path& folder, const Installation& installation);
 
-}  // namespace ripstop::openfoam
+}  // namespace ripstop::inline flow::openfoam

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace ripstop::openfoam {
+namespace ripstop::inline flow::openfoam {
 namespace {
 
 bool contains(const std::string& line, const char* text) {
@@ -74,4 +74,4 @@ bool SolverLog::feed(const std::string& line) {
   return true;
 }
 
-}  // namespace ripstop::openfoam
+}  // namespace ripstop::inline flow::openfoam

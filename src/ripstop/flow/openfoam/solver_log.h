@@ -5,7 +5,7 @@
 
 #include "ripstop/flow/flow.h"
 
-namespace ripstop::openfoam {
+namespace ripstop::inline flow::openfoam {
 
 class SolverLog {
  public:
@@ -41,4 +41,4 @@ class SolverLog {
   std::string fatal_;
 };
 
-}  // namespace ripstop::openfoam
+}  // namespace ripstop::inline flow::openfoam

@@ -13,7 +13,7 @@
 #include "ripstop/core/hash.h"
 #include "ripstop/flow/boundaries.h"
 
-namespace ripstop::openfoam {
+namespace ripstop::inline flow::openfoam {
 namespace {
 
 namespace fs = std::filesystem;
@@ -182,4 +182,4 @@ void copy_state(const fs::path& folder, const SavedState& state, const CaseFolde
     if (fs::exists(saved)) fs::copy_file(saved, lies, fs::copy_options::overwrite_existing);
 }
 
-}  // namespace ripstop::openfoam
+}  // namespace ripstop::inline flow::openfoam

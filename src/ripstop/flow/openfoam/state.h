@@ -7,7 +7,7 @@
 
 #include "ripstop/flow/flow.h"
 
-namespace ripstop::openfoam {
+namespace ripstop::inline flow::openfoam {
 
 /// Basis of the fields; another basis starts from uniform flow.
 struct Basis {
@@ -43,4 +43,4 @@ void save_state(const std::filesystem::path& folder, const Basis& basis, const C
 SavedState read_state(const std::filesystem::path& folder);
 void copy_state(const std::filesystem::path& folder, const SavedState& state, const CaseFolders& to);
 
-}  // namespace ripstop::openfoam
+}  // namespace ripstop::inline flow::openfoam

@@ -11,7 +11,7 @@
 #include "ripstop/flight/validity.h"
 #include "ripstop/run/json.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 // A canopy's shape and the air through its cloth follow the dynamic pressure: beyond this the run is of another flight.
@@ -92,4 +92,4 @@ Descent run_descent(const CarryingRun& run, double payload_mass, const std::vect
   return result;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

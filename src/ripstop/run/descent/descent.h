@@ -11,7 +11,7 @@
 #include "ripstop/run/flight/finished_flight.h"
 #include "ripstop/run/steady/finished_steady.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 struct DescentRow {
   double height = 0, density = 0;           // above sea level [m], [kg/m3]
@@ -82,4 +82,4 @@ inline Descent run_descent(const FinishedSteady& run, double payload_mass, const
   return run_descent(carrying_run(run), payload_mass, heights, ground);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

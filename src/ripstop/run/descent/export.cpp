@@ -13,7 +13,7 @@
 #include "ripstop/run/sizing/pattern.h"
 #include "ripstop/run/steady/steady_folder.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 std::string to_json(const ExportedParachute& parachute) {
   return json_text(parachute);
 }
@@ -57,4 +57,4 @@ ExportedParachute exported(const FinishedSteady& run, std::optional<double> depl
   return p;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -11,7 +11,7 @@
 #include "ripstop/run/opening/load.h"
 #include "ripstop/run/steady/finished_steady.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 /// The parachute of a run in the quantities of other programs.
 struct ExportedParachute {
@@ -116,4 +116,4 @@ std::string openrocket_text(const ExportedParachute& parachute);
 /// delay of a device is its filling time. Throws as rocketpy_text(), and for a drogue that is released.
 std::string openrocket_design(const ExportedRecovery& recovery);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -11,7 +11,7 @@
 #include "ripstop/run/descent/export.h"
 #include "ripstop/run/json.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 constexpr int sampling_rate = 100;  // of RocketPy's triggers [1/s]
@@ -265,4 +265,4 @@ std::string openrocket_design(const ExportedRecovery& recovery) {
       version(), length, radius + 0.002, devices);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

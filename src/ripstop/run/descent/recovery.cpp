@@ -18,7 +18,7 @@
 #include "ripstop/output/plot.h"
 #include "ripstop/run/json.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 constexpr double longest_descent = 1e5, slow_step = 0.05, steps_of_filling = 400;  // [s], [s], -
@@ -257,4 +257,4 @@ void write_recovery(const std::filesystem::path& folder, const RecoveryResult& r
   write_file(folder / "result.json", to_json(r));
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -13,7 +13,7 @@
 #include "ripstop/run/opening/fastest.h"
 #include "ripstop/run/opening/load.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 struct RecoveryRequest {
   double mass = 0;                       // that descends, without the parachutes [kg]
@@ -153,4 +153,4 @@ RecoveryResult run_recovery(const Settings& main, const std::optional<Settings>&
 /// result.json, trajectory.csv, height.png and speed.png.
 void write_recovery(const std::filesystem::path& folder, const RecoveryResult& result);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

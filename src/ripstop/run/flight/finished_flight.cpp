@@ -7,7 +7,7 @@
 #include "ripstop/run/run_folder.h"
 #include "ripstop/run/steady/steady_folder.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 bool holds_flight(const std::filesystem::path& folder) {
   const std::optional<std::string> text = finished_result(folder);
@@ -28,4 +28,4 @@ FinishedFlight finished_flight(const std::filesystem::path& folder) {
   return flight;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

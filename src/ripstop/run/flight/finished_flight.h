@@ -6,7 +6,7 @@
 #include "ripstop/case/settings.h"
 #include "ripstop/run/flight/flight.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 struct FinishedFlight {
   std::filesystem::path folder;
@@ -19,4 +19,4 @@ bool holds_flight(const std::filesystem::path& folder);
 /// Throws Error(usage) for a folder without one, Error(bad_data) for a flight that failed or is too short for a mean.
 FinishedFlight finished_flight(const std::filesystem::path& folder);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

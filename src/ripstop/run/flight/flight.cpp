@@ -21,7 +21,7 @@
 #include "ripstop/run/steady/steady_folder.h"
 #include "ripstop/run/steady/warnings.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -283,4 +283,4 @@ FlightSolution run_flight(const Settings& resolved, int threads, FlightObserver&
   return solution;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

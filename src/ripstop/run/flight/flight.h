@@ -15,7 +15,7 @@
 #include "ripstop/run/run_folder.h"
 #include "ripstop/run/steady/steady.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 /// How a flight continues an inflation: the same quantities at the end of that and in its own first step.
 struct Handover {
@@ -197,4 +197,4 @@ FlightSolution run_flight(const Settings& resolved, int threads, FlightObserver&
 /// Error(usage) for the inflation of another parachute.
 Settings flight_settings(const Case& given, const std::filesystem::path& from = {});
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

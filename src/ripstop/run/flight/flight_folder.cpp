@@ -14,7 +14,7 @@
 #include "ripstop/run/json.h"
 #include "ripstop/run/march_files.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -161,4 +161,4 @@ std::optional<FlightResult> run_flight_in(const FlightFolderSettings& settings, 
   return result;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

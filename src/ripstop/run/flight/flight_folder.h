@@ -7,7 +7,7 @@
 #include "ripstop/run/flight/flight.h"
 #include "ripstop/run/run_folder.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 struct FlightFolderSettings {
   RunSettings run;
@@ -24,4 +24,4 @@ inline constexpr const char* opening_name = "opening";
 std::optional<FlightResult> run_flight_in(const FlightFolderSettings& settings, const Settings& resolved,
                                           FlightObserver& observer);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

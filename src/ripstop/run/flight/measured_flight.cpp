@@ -17,7 +17,7 @@
 #include "ripstop/run/report/report_tables.h"
 #include "ripstop/run/steady/finished_steady.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 using table::Quantity;
@@ -192,4 +192,4 @@ void write_measured_flight(const std::filesystem::path& folder, const MeasuredFl
   write_file(folder / report_name, report_page(report_on({std::move(run)}, flight.title)));
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

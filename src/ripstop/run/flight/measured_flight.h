@@ -11,7 +11,7 @@
 #include "ripstop/core/table/table.h"
 #include "ripstop/flight/flight_log.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 struct MeasuredFlightRequest {
   std::vector<std::filesystem::path>
@@ -81,4 +81,4 @@ MeasuredFlight compare_flight(const Settings& resolved, const MeasuredFlightRequ
 /// result.json, drag-area.csv, drag-area.png and .svg, height.png and .svg, report.html.
 void write_measured_flight(const std::filesystem::path& folder, const MeasuredFlight& flight);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

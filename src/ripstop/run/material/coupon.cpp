@@ -12,7 +12,7 @@
 #include "ripstop/output/vtk.h"
 #include "ripstop/run/json.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 std::string to_json(const CouponResult& result) {
   return json_text(result);
@@ -55,4 +55,4 @@ void write_coupon(const std::filesystem::path& folder, const std::string& name, 
   write_vtp(folder / fmt::format("coupon-{}.vtp", name), surface);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

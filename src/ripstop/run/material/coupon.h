@@ -10,7 +10,7 @@
 #include "ripstop/core/thread_team.h"
 #include "ripstop/material/material.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 template <Of<CouponPoint> T, class Visit>
 void each_member(T& point, Visit&& visit) {
@@ -54,4 +54,4 @@ void write_coupon_result(const std::filesystem::path& folder, const CouponResult
 void write_coupon(const std::filesystem::path& folder, const std::string& name, const CouponMesh& coupon,
                   const CouponPull& pull);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -15,7 +15,7 @@
 #include "ripstop/output/plot.h"
 #include "ripstop/run/material/coupon.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -238,4 +238,4 @@ std::string to_json(const FitResult& result) {
   return root.dump(2) + "\n";
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

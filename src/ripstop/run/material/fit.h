@@ -10,7 +10,7 @@
 #include "ripstop/calibration/coupon_fit.h"
 #include "ripstop/material/fit_material.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 struct FitResult {
   Bench bench;
@@ -43,4 +43,4 @@ std::string coupons_json(const Fabric& material, const Bench& bench, const Mater
 std::string interval_text(const Estimate& estimate, const char* unit, double confidence);
 const char* load_unit(const DirectionFit& direction);  // "N" of a line, else "N/m"
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

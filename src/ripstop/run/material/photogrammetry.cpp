@@ -9,7 +9,7 @@
 #include "ripstop/run/json.h"
 #include "ripstop/run/steady/steady_folder.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 std::vector<SeenSize> seen_sizes(const std::vector<CorrectedSize>& sizes,
@@ -109,4 +109,4 @@ void write_photogrammetry(const std::filesystem::path& folder, const Photogramme
   write_file(folder / "result.json", to_json(result));
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -12,7 +12,7 @@
 #include "ripstop/case/settings.h"
 #include "ripstop/core/members.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 template <Of<ProfileRing> T, class Visit>
 void each_member(T& ring, Visit&& visit) {
@@ -78,4 +78,4 @@ Photogrammetry run_photogrammetry(const std::optional<Image>& image,
 /// profile.svg and profile.png (the half profile: radius over the distance from the skirt), and result.json.
 void write_photogrammetry(const std::filesystem::path& folder, const Photogrammetry& result);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -10,7 +10,7 @@
 #include "ripstop/run/json.h"
 #include "ripstop/run/run_folder.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 std::string to_json(const DampingResult& result) {
   return json_text(result);
@@ -57,4 +57,4 @@ void write_damping(const std::filesystem::path& folder, const DampingResult& res
   write_file(folder / "result.json", to_json(result));
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

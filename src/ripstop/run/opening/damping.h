@@ -11,7 +11,7 @@
 #include "ripstop/core/members.h"
 #include "ripstop/run/opening/inflation.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 template <Of<DampingTrial> T, class Visit>
 void each_member(T& trial, Visit&& visit) {
@@ -66,4 +66,4 @@ DampingResult run_damping(const Settings& resolved, const LoadSource& source, co
 /// damping.csv, misfit.png and result.json.
 void write_damping(const std::filesystem::path& folder, const DampingResult& result);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

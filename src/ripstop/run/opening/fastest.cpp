@@ -13,7 +13,7 @@
 #include "ripstop/run/json.h"
 #include "ripstop/run/opening/handbook.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 constexpr double slowest_deployment = 1;  // [m/s]
@@ -147,4 +147,4 @@ void write_fastest(const std::filesystem::path& folder, const FastestResult& res
   write_file(folder / "result.json", to_json(result));
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

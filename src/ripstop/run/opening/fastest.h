@@ -10,7 +10,7 @@
 #include "ripstop/core/members.h"
 #include "ripstop/run/opening/load.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 struct SafeSpeed {
   std::string method;
@@ -76,4 +76,4 @@ FastestResult run_fastest(const Settings& resolved, LoadRequest request, double 
 /// result.json.
 void write_fastest(const std::filesystem::path& folder, const FastestResult& result);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -4,7 +4,7 @@
 
 #include "ripstop/core/units.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 // n: Knacke, NWC TP 6575, Table 5-6 (page 5-44), unreefed. Pflanz's exponents: his Fig. 5-51 (page 5-59), 1 for ribbon
@@ -46,4 +46,4 @@ KnownFilling known_filling(const std::string& type) {
   return {8, 2, 6, as_solid};
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

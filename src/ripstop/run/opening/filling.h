@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 struct KnownFilling {
   double constant = 0;         // n: filling distance over nominal diameter, t_f = n D_0 / v
@@ -21,4 +21,4 @@ double filling_constant_at(double constant, double speed);
 /// gets the values of a solid canopy, with that source.
 KnownFilling known_filling(const std::string& type);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -14,7 +14,7 @@
 #include "ripstop/run/run_folder.h"
 #include "ripstop/run/steady/steady_folder.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -56,4 +56,4 @@ FinishedOpening finished_opening(const fs::path& folder) {
           opening->problem().air->flow, folder / end_folder};
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -6,7 +6,7 @@
 #include "ripstop/case/settings.h"
 #include "ripstop/fsi/opening_end.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 struct FinishedOpening {
   Settings resolved;
@@ -22,4 +22,4 @@ inline constexpr const char* end_folder = "end";
 /// kept; Error(bad_data) for damaged files.
 FinishedOpening finished_opening(const std::filesystem::path& folder);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

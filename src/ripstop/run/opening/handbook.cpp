@@ -7,7 +7,7 @@
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/run/opening/load.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 std::vector<MethodLoad> handbook_methods(const Settings& resolved) {
   if (!resolved.payload().mass_kg) return {};
@@ -51,4 +51,4 @@ std::optional<std::string> handbook_disagreement(double computed, std::optional<
           : "");
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -8,7 +8,7 @@
 #include "ripstop/case/settings.h"
 #include "ripstop/run/opening/method_load.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 /// Three standard deviations of the peaks of openings that differ only in mesh or folds: 5 % each for a disk-gap-band
 /// (docs/theory/inflation.md, Step and cells), 2 to 6 % for solid canopies.
@@ -23,4 +23,4 @@ std::vector<MethodLoad> handbook_methods(const Settings& resolved);
 std::optional<std::string> handbook_disagreement(double computed, std::optional<double> distance,
                                                  const std::vector<MethodLoad>& methods);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -19,7 +19,7 @@
 #include "ripstop/run/quality.h"
 #include "ripstop/run/steady/warnings.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 // The first work is so small that its residual is meaningless.
@@ -287,4 +287,4 @@ InflationSolution run_inflation(const Settings& resolved, const LoadSource& sour
   return solution;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -14,7 +14,7 @@
 #include "ripstop/run/margins.h"
 #include "ripstop/run/opening/method_load.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 /// The numbers of one opening: result.json.
 struct InflationResult {
@@ -185,4 +185,4 @@ InflationProblem with_engine(const Settings& resolved, InflationProblem problem)
 InflationSolution run_inflation(const Settings& resolved, const LoadSource& source, InflationProblem problem,
                                 InflationObserver& observer);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

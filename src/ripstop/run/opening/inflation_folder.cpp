@@ -17,7 +17,7 @@
 #include "ripstop/run/march_files.h"
 #include "ripstop/run/opening/finished_opening.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -271,4 +271,4 @@ std::optional<InflationResult> run_inflation_in(const InflationFolderSettings& s
   return result;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

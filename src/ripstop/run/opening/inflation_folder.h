@@ -12,7 +12,7 @@
 #include "ripstop/run/opening/inflation.h"
 #include "ripstop/run/run_folder.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 struct InflationFolderSettings {
   RunSettings run;
@@ -42,4 +42,4 @@ Plot load_plot(const std::vector<HistoryRow>& rows, const std::vector<double>& s
 std::string to_bytes(const InflationState& state);
 InflationState inflation_state_from_bytes(const std::string& bytes);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -19,7 +19,7 @@
 #include "ripstop/run/opening/handbook.h"
 #include "ripstop/run/opening/opening_record.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 // How many steps a filling takes on the trajectory, and how long one is flown at most [s].
@@ -342,4 +342,4 @@ LoadResult run_load(const Settings& resolved, const LoadRequest& request) {
   return r;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -14,7 +14,7 @@
 #include "ripstop/run/opening/method_load.h"
 #include "ripstop/run/opening/snatch.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 /// A reefed stage: held at a share of the open drag area until so long after line stretch or the disreef before.
 struct ReefedStage {
@@ -169,4 +169,4 @@ LoadResult run_load(const Settings& resolved, const LoadRequest& request);
 /// result.json, trajectory.csv, force.png and speed.png.
 void write_load(const std::filesystem::path& folder, const LoadResult& result);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

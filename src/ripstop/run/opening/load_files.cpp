@@ -7,7 +7,7 @@
 #include "ripstop/output/plot.h"
 #include "ripstop/run/opening/load.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 constexpr double shown_after_peak =
@@ -59,4 +59,4 @@ void write_load(const std::filesystem::path& folder, const LoadResult& r) {
   write_file(folder / "result.json", to_json(r));
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -15,7 +15,7 @@
 #include "ripstop/run/json.h"
 #include "ripstop/run/run_folder.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 /// Load over time, times ascending.
@@ -159,4 +159,4 @@ void write_measured_load(const std::filesystem::path& folder, const MeasuredLoad
   write_file(folder / "result.json", to_json(comparison));
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

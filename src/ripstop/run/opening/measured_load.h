@@ -9,7 +9,7 @@
 #include "ripstop/core/members.h"
 #include "ripstop/core/table/table.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 struct MeasuredLoadRequest {
   std::filesystem::path run, file;  // folder of an opening; table of time and force, docs/guide/tables.md
@@ -57,4 +57,4 @@ MeasuredLoad compare_load(const MeasuredLoadRequest& request);
 /// load.svg, load.png and result.json.
 void write_measured_load(const std::filesystem::path& folder, const MeasuredLoad& comparison);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

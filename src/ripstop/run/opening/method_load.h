@@ -5,7 +5,7 @@
 
 #include "ripstop/core/members.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 /// Names of the two methods that are not finite-mass estimates of the handbook.
 inline constexpr const char *infinite_mass_method = "infinite mass", *computed_method = "computed opening";
@@ -26,4 +26,4 @@ void each_member(T& m, Visit&& visit) {
   visit("note", m.note);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -14,7 +14,7 @@
 #include "ripstop/run/run_folder.h"
 #include "ripstop/run/steady/steady_folder.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 namespace fs = std::filesystem;
 
@@ -122,4 +122,4 @@ ComputedFilling computed_filling(const fs::path& folder, const Settings& resolve
   return filling;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -6,7 +6,7 @@
 
 #include "ripstop/case/settings.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 /// A canopy fills over about the same distance through the air at any speed. An opening at one speed is
 /// therefore transferred by distance and not by time.
@@ -27,4 +27,4 @@ struct ComputedFilling {
 /// Throws as opening_record(), and Error(usage) for an opening that has not filled.
 ComputedFilling computed_filling(const std::filesystem::path& folder, const Settings& resolved);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

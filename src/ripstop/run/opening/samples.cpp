@@ -10,7 +10,7 @@
 #include "ripstop/run/json.h"
 #include "ripstop/run/run_folder.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 constexpr double usual_imperfection = 0.01;  // of the radius of the folded skirt (assumed)
@@ -80,4 +80,4 @@ SampleSummary run_samples(const InflationFolderSettings& settings, const Setting
   return summary;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -8,7 +8,7 @@
 
 #include "ripstop/run/opening/inflation_folder.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 struct Statistic {
   double mean = 0, standard_deviation = 0, lowest = 0, highest = 0;  // of a sample: divided by n - 1
@@ -54,4 +54,4 @@ Settings with_seed(const Settings& resolved, int seed);
 SampleSummary run_samples(const InflationFolderSettings& settings, const Settings& resolved, int samples,
                           const std::function<void(const InflationFolderSettings&, const Settings&)>& open);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -12,7 +12,7 @@
 #include "ripstop/flight/snatch.h"
 #include "ripstop/run/opening/load.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 /// The snatch of one case and request, whose parts can be changed.
@@ -92,4 +92,4 @@ std::optional<SnatchResult> snatch_of(const Settings& resolved, const LoadReques
   return found;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -8,7 +8,7 @@
 #include "ripstop/case/settings.h"
 #include "ripstop/core/members.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 struct LoadRequest;
 struct LoadResult;
@@ -53,4 +53,4 @@ void each_member(T& s, Visit&& visit) {
 std::optional<SnatchResult> snatch_of(const Settings& resolved, const LoadRequest& request,
                                       const LoadResult& result);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -11,7 +11,7 @@
 #include "ripstop/run/json.h"
 #include "ripstop/run/run_folder.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -79,4 +79,4 @@ RunComparison compare_runs(const std::vector<std::filesystem::path>& folders) {
   return comparison;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

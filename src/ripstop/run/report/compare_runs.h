@@ -8,7 +8,7 @@
 
 #include "ripstop/core/members.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 struct ComparedNumber {
   std::string key;                   // of result.json
@@ -38,4 +38,4 @@ std::string to_json(const RunComparison& comparison);
 /// Error(usage) for fewer than two folders or one without a finished run, Error(bad_data) for a damaged one.
 RunComparison compare_runs(const std::vector<std::filesystem::path>& folders);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -10,7 +10,7 @@
 #include "ripstop/run/report/report_plots.h"
 #include "ripstop/run/report/shape_files.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -66,4 +66,4 @@ RunProgress progress_in(const fs::path& folder) {
   return progress;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

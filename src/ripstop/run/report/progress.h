@@ -7,7 +7,7 @@
 
 #include "ripstop/report/report.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 struct RunProgress {
   std::vector<ReportPlot> plots;
@@ -18,4 +18,4 @@ struct RunProgress {
 /// left out.
 RunProgress progress_in(const std::filesystem::path& folder);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

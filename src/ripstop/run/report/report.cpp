@@ -19,7 +19,7 @@
 #include "ripstop/run/steady/steady_folder.h"
 #include "ripstop/run/steady/warnings.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -180,4 +180,4 @@ fs::path write_report(const std::vector<fs::path>& folders, const fs::path& out)
   return target;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

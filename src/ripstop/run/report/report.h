@@ -10,7 +10,7 @@
 #include "ripstop/core/claimed_folder.h"
 #include "ripstop/report/report.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 /// Its name in a run folder.
 inline constexpr const char* report_name = "report.html";
@@ -36,4 +36,4 @@ std::string write_run_report(ClaimedFolder& folder);
 std::filesystem::path write_report(const std::vector<std::filesystem::path>& folders,
                                    const std::filesystem::path& out = {});
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -16,7 +16,7 @@
 #include "ripstop/run/report/report_plots.h"
 #include "ripstop/run/report/shape_files.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -164,4 +164,4 @@ void add_flight(ReportRun& run, const Settings& resolved, const fs::path& folder
   add_path(run.shape, before, rows, resolved.flight().height_m.value_or(0));
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

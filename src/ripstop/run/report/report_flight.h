@@ -7,7 +7,7 @@
 #include "ripstop/case/settings.h"
 #include "ripstop/report/report.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 /// Whether `run.values` are those of a flight.
 bool is_flight(const ReportRun& run);
@@ -17,4 +17,4 @@ std::vector<ReportPlot> flight_plots(const std::filesystem::path& folder);
 /// Error(bad_data) for tables and shapes that do not belong together.
 void add_flight(ReportRun& run, const Settings& resolved, const std::filesystem::path& folder);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

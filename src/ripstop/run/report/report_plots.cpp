@@ -9,7 +9,7 @@
 #include "ripstop/output/csv.h"
 #include "ripstop/run/report/report_tables.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -211,4 +211,4 @@ std::vector<ReportPlot> comparison_plots(const std::vector<ReportRun>& runs, con
   return plots;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

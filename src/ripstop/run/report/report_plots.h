@@ -7,7 +7,7 @@
 #include "ripstop/case/settings.h"
 #include "ripstop/report/report.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 /// As a screen shows it: of every stretch its least and its largest value.
 ReportSeries thinned(ReportSeries series);
@@ -19,4 +19,4 @@ std::vector<ReportPlot> plots_of(const ReportRun& run, const std::filesystem::pa
 /// have, in common axes.
 std::vector<ReportPlot> comparison_plots(const std::vector<ReportRun>& runs, const Settings& resolved);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

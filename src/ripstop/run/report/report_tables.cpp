@@ -14,7 +14,7 @@
 #include "ripstop/run/json.h"
 #include "ripstop/run/sizing/pattern.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -187,4 +187,4 @@ ReportTable comparison_table(const std::vector<ReportRun>& runs) {
   return table;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

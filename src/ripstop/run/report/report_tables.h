@@ -7,7 +7,7 @@
 #include "ripstop/case/settings.h"
 #include "ripstop/report/report.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 /// Plain values of a result.json into `run.values`; every list of rows and every group of values in it, whatever
 /// its name, is a table. Throws Error(bad_data) naming `file`.
@@ -25,4 +25,4 @@ ReportTable comparison_table(const std::vector<ReportRun>& runs);
 /// The number under a key of `run.values`; not-a-number where there is none.
 double number_of(const ReportRun& run, const std::string& key);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -5,7 +5,7 @@
 
 #include "ripstop/output/csv.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -48,4 +48,4 @@ std::vector<ShapeFiles> thinned_out(std::vector<ShapeFiles> all) {
   return kept;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -6,7 +6,7 @@
 
 #include "ripstop/report/shape_view.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 /// "vtk/canopy_0012.vtp" and its lines, in order, without times.
 std::vector<ShapeFiles> shape_files(const std::filesystem::path& folder);
@@ -15,4 +15,4 @@ std::vector<ShapeFiles> opening_shapes(const std::filesystem::path& folder);
 /// As many, evenly spaced, as fit into a page.
 std::vector<ShapeFiles> thinned_out(std::vector<ShapeFiles> files);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

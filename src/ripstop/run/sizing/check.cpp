@@ -3,7 +3,7 @@
 #include "ripstop/run/json.h"
 #include "ripstop/run/steady/warnings.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -46,4 +46,4 @@ std::string to_json(const std::vector<Problem>& problems) {
   return report.dump(2) + "\n";
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -9,7 +9,7 @@
 #include "ripstop/core/members.h"
 #include "ripstop/core/toml/problem.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 template <Of<Problem> T, class Visit>
 void each_member(T& p, Visit&& visit) {
@@ -73,4 +73,4 @@ std::string to_json(const CheckResult& result);
 /// The same of a case that InputError found wrong.
 std::string to_json(const std::vector<Problem>& problems);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -18,7 +18,7 @@
 #include "ripstop/run/run_folder.h"
 #include "ripstop/run/stress_arrays.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 constexpr double highest_pressure = 1e6;  // as of inflation.pressure_pa [Pa]
@@ -128,4 +128,4 @@ void write_fabric(const std::filesystem::path& folder, const FabricSolution& sol
   write_file(folder / "result.json", to_json(result));
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -16,7 +16,7 @@
 #include "ripstop/core/members.h"
 #include "ripstop/output/vtk.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 /// result.json of `ripstop fabric`.
 struct FabricResult {
@@ -88,4 +88,4 @@ VtkSurface fabric_lines(const FabricSolution& solution);
 /// canopy.png, canopy.vtp, lines.vtp and result.json.
 void write_fabric(const std::filesystem::path& folder, const FabricSolution& solution);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

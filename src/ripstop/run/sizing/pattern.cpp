@@ -14,7 +14,7 @@
 #include "ripstop/output/pattern_files.h"
 #include "ripstop/run/json.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 std::string drawing_name(const Piece& piece, const char* ending) {
@@ -88,4 +88,4 @@ void write_pattern(const std::filesystem::path& folder, const PatternResult& res
   write_file(folder / "result.json", to_json(written));
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -12,7 +12,7 @@
 #include "ripstop/output/pattern_files.h"
 #include "ripstop/parachute/cut.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 template <Of<BillRow> T, class Visit>
 void each_member(T& row, Visit&& visit) {
@@ -73,4 +73,4 @@ void write_pattern(const std::filesystem::path& folder, const PatternResult& res
 inline const Range allowance_range = from(0).up_to(1);            // [m]
 inline const Range packing_density_range = from(50).up_to(1500);  // [kg/m3]
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -20,7 +20,7 @@
 #include "ripstop/run/json.h"
 #include "ripstop/run/sizing/size_case.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 // Relative difference of drag and weight that remains from rounding the lengths of the case file.
@@ -481,4 +481,4 @@ void verify_size(const SizeRequest& request, SizeResult& r,
                           r.checks.back().descent_rate, request.descent_rate));
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

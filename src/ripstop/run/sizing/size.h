@@ -15,7 +15,7 @@
 #include "ripstop/run/opening/load.h"
 #include "ripstop/run/steady/steady.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 /// The coefficient in descent of a family as Ripstop has flown it: a row of examples/flown.json.
 struct FlownDrag {
@@ -178,4 +178,4 @@ void verify_size(const SizeRequest& request, SizeResult& result,
                  const std::function<VerifiedDescent(const Settings&, int run)>& fly,
                  double tolerance = 0.01);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

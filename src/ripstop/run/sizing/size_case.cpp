@@ -9,7 +9,7 @@
 #include "ripstop/core/toml/fields.h"
 #include "ripstop/core/toml/write.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 /// To a tenth of a millimetre; small lengths to five digits, so that a small parachute keeps its proportions.
@@ -133,4 +133,4 @@ std::string size_case_text(const SizeRequest& request, const SizeResult& r) {
   return text;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -5,7 +5,7 @@
 
 #include "ripstop/run/sizing/size.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 enum class Rounded { no, yes };
 /// Every length of the parachute times `factor`, rounded to measurable lengths; lengths of the mesh do not
@@ -23,4 +23,4 @@ ScaleLimits scale_limits(Design design);
 /// A case file with comments that reads back to `result.given`.
 std::string size_case_text(const SizeRequest& request, const SizeResult& result);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

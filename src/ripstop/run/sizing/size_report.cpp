@@ -4,7 +4,7 @@
 #include "ripstop/run/report/report.h"
 #include "ripstop/run/report/report_tables.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 template <class Value>
@@ -51,4 +51,4 @@ Report size_report(const SizeResult& result, const std::vector<std::filesystem::
   return report;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

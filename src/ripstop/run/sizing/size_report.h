@@ -7,10 +7,10 @@
 #include "ripstop/report/report.h"
 #include "ripstop/run/sizing/size.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 /// Its numbers, the opening by every method, bill of materials and case; behind it the runs of --verify, from their
 /// folders.
 Report size_report(const SizeResult& result, const std::vector<std::filesystem::path>& runs);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -19,7 +19,7 @@
 #include "ripstop/run/engine.h"
 #include "ripstop/run/json.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 // The box and its cells, in units of the canopy's largest width: as in bench/attack.cpp.
@@ -308,4 +308,4 @@ StabilityRow row_of_field(const FlowField& field, const Freestream& air, double 
   return row;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -17,7 +17,7 @@
 #include "ripstop/fsi/steady_state.h"
 #include "ripstop/parachute/canopy_mesh.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 /// The largest angle of attack that a run takes [degrees], and the most angles.
 inline constexpr double largest_angle = 90;
@@ -150,4 +150,4 @@ StabilityRow row_of_record(const FlowRecord& record, const Freestream& air, doub
 StabilityRow row_of_field(const FlowField& field, const Freestream& air, double angle,
                           const Reference& reference);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

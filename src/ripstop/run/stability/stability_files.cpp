@@ -7,7 +7,7 @@
 #include "ripstop/core/file.h"
 #include "ripstop/output/csv.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 Plot stability_plot(const StabilityResult& result) {
   Plot plot{result.title, {"angle of attack [deg]"}, {"coefficient"}, {}};
@@ -68,4 +68,4 @@ void write_angle_history(ClaimedFolder& folder, const FlowRecord& record) {
   write_csv(folder.own("history.csv"), table);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

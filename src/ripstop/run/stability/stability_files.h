@@ -8,7 +8,7 @@
 #include "ripstop/output/plot.h"
 #include "ripstop/run/stability/stability.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 /// Coefficients with bars of one standard error over the angle of attack.
 Plot stability_plot(const StabilityResult& result);
@@ -19,4 +19,4 @@ void write_stability_files(ClaimedFolder& folder, const StabilityResult& result)
 /// history.csv: force and moment about the confluence, step by step. Throws Error(io).
 void write_angle_history(ClaimedFolder& folder, const FlowRecord& record);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -27,7 +27,7 @@
 #include "ripstop/run/steady/checkpoint.h"
 #include "ripstop/run/steady/steady_folder.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -435,4 +435,4 @@ StabilityResult gather_stability(const Case& given, const std::vector<double>& a
   return Curve(given, angles, settings).gather(missing, observer);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -10,7 +10,7 @@
 #include "ripstop/run/stability/stability.h"
 #include "ripstop/run/steady/steady.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 struct StabilitySettings {
   RunSettings run;
@@ -68,4 +68,4 @@ StabilityResult gather_stability(const Case& given, const std::vector<double>& a
                                  const StabilitySettings& settings, std::vector<std::string>& missing,
                                  StabilityObserver& observer);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -10,7 +10,7 @@
 #include "ripstop/run/report/report.h"
 #include "ripstop/run/report/report_tables.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 struct Drawn {
@@ -69,4 +69,4 @@ std::string write_stability_report(ClaimedFolder& folder, const StabilityResult&
   }
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -6,7 +6,7 @@
 #include "ripstop/core/hash.h"
 #include "ripstop/run/json.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 template <Of<BodyLoad> T, class Visit>
 void each_member(T& load, Visit&& visit) {
@@ -74,4 +74,4 @@ void WindowCheckpoint::remove() const {
   remove_path(folder_.path() / window_folder);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -8,7 +8,7 @@
 #include "ripstop/flow/unsteady.h"
 #include "ripstop/run/checkpoint_parts.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 class WindowCheckpoint {
  public:
@@ -28,4 +28,4 @@ class WindowCheckpoint {
   std::size_t next_ = 0;  // which of its two folders the next flow goes to
 };
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

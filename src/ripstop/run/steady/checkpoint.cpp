@@ -11,7 +11,7 @@
 #include "ripstop/run/checkpoint_parts.h"
 #include "ripstop/run/json.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -71,4 +71,4 @@ std::optional<LoadedCheckpoint> load_checkpoint(const fs::path& folder, Flow& fl
               damage + "; the run has no other complete checkpoint: start again with --fresh");
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -9,7 +9,7 @@
 #include "ripstop/flow/flow.h"
 #include "ripstop/fsi/steady_loop.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 /// Every double bit for bit (CBOR). from_bytes() throws Error(bad_data) for anything
 /// to_bytes() did not write.
@@ -27,4 +27,4 @@ struct LoadedCheckpoint {
 /// there are are damaged.
 std::optional<LoadedCheckpoint> load_checkpoint(const std::filesystem::path& folder, Flow& flow);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

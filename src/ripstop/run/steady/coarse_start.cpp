@@ -9,7 +9,7 @@
 #include "ripstop/run/engine.h"
 #include "ripstop/run/quality.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 // Cells of the run across the canopy. Half of them give the shape within about a cell of the fine ones; fewer do not.
@@ -84,4 +84,4 @@ std::unique_ptr<CoarseStart> coarse_start(const Settings& resolved, const Steady
   }
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

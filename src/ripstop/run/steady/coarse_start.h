@@ -6,7 +6,7 @@
 #include "ripstop/core/file.h"
 #include "ripstop/run/steady/steady.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 /// End of the run on the coarser cells.
 struct CoarseStart {
@@ -23,4 +23,4 @@ std::unique_ptr<CoarseStart> coarse_start(const Settings& resolved, const Steady
                                           const SteadyState& state, SteadyObserver& observer,
                                           const SteadySettings& settings);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -12,7 +12,7 @@
 #include "ripstop/output/plot.h"
 #include "ripstop/run/json.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 template <class Kind>
@@ -145,4 +145,4 @@ void write_comparison(const std::filesystem::path& folder, const Comparison& com
   write_file(folder / "result.json", to_json(comparison));
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

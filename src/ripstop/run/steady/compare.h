@@ -13,7 +13,7 @@
 #include "ripstop/core/members.h"
 #include "ripstop/run/sweep/sweep.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 /// The case as it is; with K_1 alone for every material; and for the cloth, the lines and the tape, if there is one,
 /// in turn.
@@ -85,4 +85,4 @@ Comparison compare_models(const std::vector<SweepPoint>& points, const std::vect
 /// profile.csv, profile.svg, profile.png and result.json: the first two models.
 void write_comparison(const std::filesystem::path& folder, const Comparison& comparison);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -11,7 +11,7 @@
 #include "ripstop/run/run_folder.h"
 #include "ripstop/run/steady/steady_folder.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 double drag_uncertainty(const SteadyIteration& last) {
   const double drag = last.fluid_force;
@@ -64,4 +64,4 @@ FinishedSteady finished_steady(const std::filesystem::path& folder) {
   return run;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -6,7 +6,7 @@
 #include "ripstop/case/settings.h"
 #include "ripstop/run/steady/steady.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 /// Numerical uncertainty of the drag of a run, relative: the largest of its last change, the deviation of an averaged
 /// flow or the standard error of an unsteady one, and the force imbalance. The error of the model is not included.
@@ -26,4 +26,4 @@ FinishedSteady finished_steady(const std::filesystem::path& folder);
 /// Of a run in memory: its `folder` stays empty. Throws Error(bad_data) for one that has not converged.
 FinishedSteady finished_steady(const Settings& resolved, const SteadyResult& result);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

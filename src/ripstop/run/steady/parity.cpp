@@ -17,7 +17,7 @@
 #include "ripstop/flow/steady.h"
 #include "ripstop/run/json.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 constexpr double field_tolerance = 0.01;
@@ -141,4 +141,4 @@ ParityResult flow_parity(const ParitySettings& settings, const ParityEvents& eve
   return result;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -10,7 +10,7 @@
 #include "ripstop/core/members.h"
 #include "ripstop/flow/flow.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 /// Cloth of the `paper` model, by name.
 struct ParityCanopy {
@@ -107,4 +107,4 @@ struct ParityEvents {
 /// The divergence of an engine is recorded in its row. Throws Error(external) if OpenFOAM is missing.
 ParityResult flow_parity(const ParitySettings& settings, const ParityEvents& events = {});
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -10,7 +10,7 @@
 #include "ripstop/run/steady/coarse_start.h"
 #include "ripstop/run/steady/steady_parts.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 /// The pressures go with the dynamic pressure, those that the acceleration remembers too.
@@ -98,4 +98,4 @@ SteadySolution run_with_payload(const Settings& resolved, SteadyObserver& observ
   return solution;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

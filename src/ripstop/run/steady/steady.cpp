@@ -20,7 +20,7 @@
 #include "ripstop/run/steady/steady_parts.h"
 #include "ripstop/run/steady/warnings.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 using nlohmann::json;
@@ -190,4 +190,4 @@ bool start_from(const Settings& other, const SteadyState& end, const SteadyRun& 
          steady_problem(other).flow.quarter == run.solver.full_box_because().empty();
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

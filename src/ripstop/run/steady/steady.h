@@ -15,7 +15,7 @@
 #include "ripstop/fsi/steady_loop.h"
 #include "ripstop/run/margins.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 /// Axial forces that have to agree [N].
 struct Ledger {
@@ -221,4 +221,4 @@ inline SteadySolution run_steady(const Case& given, SteadyObserver& observer,
 /// its pressure at this case's q. Another mesh starts cold. Returns whether the flow of that run fits too.
 bool start_from(const Settings& other, const SteadyState& end, const SteadyRun& run, SteadyState& state);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

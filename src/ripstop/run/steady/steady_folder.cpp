@@ -23,7 +23,7 @@
 #include "ripstop/run/steady/watch_files.h"
 #include "ripstop/run/stress_arrays.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -310,4 +310,4 @@ void drop_flow_checkpoint(const fs::path& folder) {
   for (const char* name : alternating_folders) remove_path(folder / "checkpoint" / name / "flow");
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -9,7 +9,7 @@
 #include "ripstop/run/run_folder.h"
 #include "ripstop/run/steady/steady.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 struct SteadyFolderSettings {
   RunSettings run;
@@ -50,4 +50,4 @@ Settings settings_of_run(const std::filesystem::path& folder);
 /// Throws Error(io).
 void drop_flow_checkpoint(const std::filesystem::path& folder);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -7,7 +7,7 @@
 #include "ripstop/core/file.h"
 #include "ripstop/run/steady/steady.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 struct SteadyParts {
   std::unique_ptr<TemporaryFolder> temporary;  // of an engine that needs one and was given none
@@ -38,4 +38,4 @@ class RunClock {
 SteadySolution run_with_payload(const Settings& resolved, SteadyObserver& observer,
                                 const SteadySettings& settings, RunClock clock);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -15,7 +15,7 @@
 #include "ripstop/parachute/profile.h"
 #include "ripstop/run/quality.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 std::vector<std::string> mesh_warnings(const Settings& resolved) {
   const int asked = resolved.parachute().mesh.cloth_nodes;
@@ -142,4 +142,4 @@ std::vector<std::string> warnings_of(const Settings& resolved, double largest_cl
   return all;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -6,7 +6,7 @@
 
 #include "ripstop/case/settings.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 /// A mesh on which this type's diameter may be more than 1 % off; nothing where it is fine enough.
 std::vector<std::string> mesh_warnings(const Settings& resolved);
@@ -25,4 +25,4 @@ std::vector<std::string> strain_warnings(const Settings& resolved, double larges
 /// All of them.
 std::vector<std::string> warnings_of(const Settings& resolved, double largest_cloth_strain);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -11,7 +11,7 @@
 #include "ripstop/output/plot.h"
 #include "ripstop/output/vtk.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 constexpr std::size_t most_plotted = 2000;  // of a line in the plot
@@ -84,4 +84,4 @@ void write_watch(ClaimedFolder& folder, const Settings& resolved, const FlowReco
   write_wake(folder, resolved, record);
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

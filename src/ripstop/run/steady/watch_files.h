@@ -8,7 +8,7 @@
 #include "ripstop/flow/unsteady.h"
 #include "ripstop/output/plot.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 /// Drag with its mean so far, and the side forces, over time. Of a record with steps.
 Plot history_plot(const std::string& title, const FlowRecord& record);
@@ -17,4 +17,4 @@ Plot history_plot(const std::string& title, const FlowRecord& record);
 /// (the middle plane at the last times), wake.png (speed in it). Throws Error(io).
 void write_watch(ClaimedFolder& folder, const Settings& resolved, const FlowRecord& record);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -16,7 +16,7 @@
 #include "ripstop/core/visible.h"
 #include "ripstop/run/engine.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -216,4 +216,4 @@ fs::path write_batch(const fs::path& folder, const std::vector<BatchFile>& files
   return scripts;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

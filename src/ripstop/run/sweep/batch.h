@@ -7,7 +7,7 @@
 
 #include "ripstop/case/settings.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 /// Requirements of a job. Time and memory are estimates.
 struct BatchNeeds {
@@ -54,4 +54,4 @@ std::vector<BatchFile> slurm_files(const BatchSweep& sweep);
 /// ClaimedFolder does. Returns the folder.
 std::filesystem::path write_batch(const std::filesystem::path& folder, const std::vector<BatchFile>& files);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -7,7 +7,7 @@
 #include "ripstop/case/settings.h"
 #include "ripstop/core/error.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 std::vector<MeasuredDrag> measured_drag(const Settings& resolved) {
   std::vector<MeasuredDrag> points;
@@ -107,4 +107,4 @@ std::vector<PorosityTrial> porosity_trials(const Settings& resolved, const Poros
   return trials;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -10,7 +10,7 @@
 #include "ripstop/core/table/table.h"
 #include "ripstop/run/sweep/sweep.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 /// The rows of [[measured]] that have a drag, on the case's basis; may be none.
 std::vector<MeasuredDrag> measured_drag(const Settings& resolved);
@@ -46,4 +46,4 @@ std::vector<SweepAxis> porosity_axes(const Settings& resolved, const PorositySwe
 std::vector<PorosityTrial> porosity_trials(const Settings& resolved, const PorositySweep& sweep,
                                            const std::vector<SweepRow>& rows);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

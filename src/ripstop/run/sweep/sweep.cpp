@@ -20,7 +20,7 @@
 #include "ripstop/run/engine.h"
 #include "ripstop/run/steady/steady_folder.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -395,4 +395,4 @@ std::vector<SweepRow> gather_sweep(const std::vector<SweepPoint>& points, const 
   return rows;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

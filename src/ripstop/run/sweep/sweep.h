@@ -12,7 +12,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/run/steady/steady.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 /// Varied values: one value is one or more settings, shown under one name.
 struct SweepAxis {
@@ -97,4 +97,4 @@ SteadyResult run_sweep_point(const std::vector<SweepPoint>& points, const SweepS
 /// The rows of all runs that have ended, computing nothing; the others are failed ones that wait.
 std::vector<SweepRow> gather_sweep(const std::vector<SweepPoint>& points, const SweepSettings& settings);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

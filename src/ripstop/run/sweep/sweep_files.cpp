@@ -13,7 +13,7 @@
 #include "ripstop/run/json.h"
 #include "ripstop/run/report/report.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 namespace {
 
 std::optional<double> number_in(const std::string& text) {
@@ -199,4 +199,4 @@ std::string finish_sweep(const std::filesystem::path& folder, const std::vector<
   return json;
 }
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run

@@ -9,7 +9,7 @@
 #include "ripstop/output/csv.h"
 #include "ripstop/run/sweep/sweep.h"
 
-namespace ripstop {
+namespace ripstop::inline run {
 
 /// A row a run in the order of the points, those without a result too: varied keys, the members of
 /// SteadyResult that are columns, status ("converged", "not converged", "failed: ...", "waiting"), folder.
@@ -32,4 +32,4 @@ void write_sweep_plots(const std::filesystem::path& folder, const std::string& t
 std::string finish_sweep(const std::filesystem::path& folder, const std::vector<SweepAxis>& axes,
                          const std::vector<SweepPoint>& points, const std::vector<SweepRow>& rows);
 
-}  // namespace ripstop
+}  // namespace ripstop::inline run
