@@ -114,7 +114,8 @@ Answer in_time(const FlowProblem& problem, const Body& body) {
   const auto flow = engine->start(problem);
   Watch how;
   how.length = body.diameter, how.standard_error = 0.005, how.shortest = 20, how.longest = 60;
-  if (body.surface.empty()) how.shortest = 60, how.longest = 120;  // sheds every seven widths
+  if (body.surface.empty())
+    how.standard_error = 0.02, how.shortest = 60, how.longest = 400;  // sheds every seven widths
   FlowRecord record;
   Answer answer{watch(*flow, problem, how, record)};
   answer.error = record.drag.standard_error / std::abs(record.drag.mean);

@@ -60,7 +60,7 @@ void check_inside(const FlowProblem& problem, const FlowBody& body) {
             "flow: body \"{}\" extends from {} = {:.4g} to {:.4g} m, which must lie within {:.4g} to "
             "{:.4g} m, the extent of the domain; change the place of the body or the size of the domain",
             body.name, "xyz"[axis], extent.low[axis], extent.high[axis], low[axis], high[axis]),
-        {"place of the body", "size of the domain"});
+        {"the place of the body", "the size of the domain"});
   }
 }
 
@@ -83,7 +83,7 @@ void check_bodies(const FlowProblem& problem) {
                 "flow: the surfaces of the bodies \"{}\" and \"{}\" intersect; they must be apart: change, "
                 "for one of them, the place of the body",
                 bodies[m].name, bodies[n].name),
-            {"place of the body"});
+            {"the place of the body"});
     }
   }
 }

@@ -78,7 +78,7 @@ void check_stream(const Freestream& air) {
           "speed of the free stream = {:g} m/s: must be above 0 and at most {:.4g} m/s, Mach {} at {:g} K; "
           "change it or the temperature of the air",
           speed, most_mach * sound, most_mach, air.temperature),
-      {"speed of the free stream", "temperature of the air"});
+      {"speed of the free stream", "the temperature of the air"});
 }
 
 FlowBody sheet_body(std::vector<Triangle> surface, PressureDrop law, std::string name) {
