@@ -2,8 +2,8 @@
 // body and the stream: 0 for a plate across the stream.
 //
 // bench_attack [HOW] plate CELLS ANGLE...              a square plate of 1 m, impermeable
-// bench_attack between-walls CELLS ANGLE...            a plate of 1 m between two walls: a flow that is plane in the
-//                                                      mean. Here the plate turns on the cells
+// bench_attack between-walls SPAN CELLS ANGLE...       a plate of 1 m between two walls, SPAN m apart: a flow that is
+//                                                      plane in the mean. Here the plate turns on the cells
 // bench_attack [HOW] FILE.stl A B D0 CELLS ANGLE...    a surface with the pressure drop A v + B v |v| and nominal
 //                                                      diameter D0
 //     HOW  nothing: built-in engine, in time; "steady": its steady iteration; "fitted FOLDER": OpenFOAM, steady, on a
@@ -68,15 +68,13 @@ FlowProblem problem_of(const Body& body, double angle, int across) {
 
 // Plane flow: slip walls `span` apart at the ends of the plate, and 60 m apart above and below it, which leaves a
 // blockage of 1.7 %.
-constexpr double span = 2.5;
-
-std::vector<Triangle> plate_between_walls() {
+std::vector<Triangle> plate_between_walls(double span) {
   const double end = 0.5 * span + 0.5;  // reaches into the walls
   const Vec3 a{-0.5, -end, 0}, b{0.5, -end, 0}, c{0.5, end, 0}, d{-0.5, end, 0};
   return {{a, b, c}, {a, c, d}};
 }
 
-FlowProblem between_walls(double angle, int across) {
+FlowProblem between_walls(double span, double angle, int across) {
   constexpr double before = 12, behind = 12, above = 30, margin = 0.25, wake = 2, growth = 1.2;
   const double h = 1.0 / across, half = 0.5 + margin;
   const Vec3 off = h * Vec3{0.25, 0, 0.125};  // no two edges lie alike on the cells
@@ -94,7 +92,7 @@ FlowProblem between_walls(double angle, int across) {
                         low, high, growth);
   problem.air.velocity = {0, 0, speed};
   problem.sides = Sides::slip, problem.outlet = Outlet::still_air;
-  problem.bodies = {sheet_body(turned(plate_between_walls(), wind_direction(angle)), impermeable)};
+  problem.bodies = {sheet_body(turned(plate_between_walls(span), wind_direction(angle)), impermeable)};
   return problem;
 }
 
@@ -154,7 +152,7 @@ void attack(const Body& body, int across, const std::vector<double>& angles, Met
   for (const double angle : angles) {
     const bool foam = method == Method::fitted;
     const FlowProblem problem =
-        walls ? between_walls(angle, across) : problem_of(body, angle, foam ? across / 2 : across);
+        walls ? between_walls(body.area, angle, across) : problem_of(body, angle, foam ? across / 2 : across);
     const Answer answer = foam                       ? fitted(problem, folder)
                           : method == Method::steady ? steady(problem)
                                                      : in_time(problem, body);
@@ -184,16 +182,16 @@ int main(int argc, char** argv) {
   if (words.size() > 2 && words[0] == "fitted") method = Method::fitted, folder = words[1], at = 2;
   const bool walls = !words.empty() && words[0] == "between-walls";
   const bool plate = walls || (at < words.size() && words[at] == "plate");
-  const std::size_t first = at + (plate ? 1 : 4);
+  const std::size_t first = at + (walls ? 2 : plate ? 1 : 4);
   if (words.size() < first + 2)
     return fmt::print(
                "bench_attack [steady|fitted FOLDER] plate CELLS ANGLE... | FILE.stl A B D0 CELLS ANGLE...\n"
-               "bench_attack between-walls CELLS ANGLE...\n"),
+               "bench_attack between-walls SPAN CELLS ANGLE...\n"),
            2;
   const auto number = [&](std::size_t n) { return std::atof(words[n].c_str()); };
   const double d0 = plate ? 1 : number(at + 3);
   const Body body =
-      walls ? Body{"plate between walls", {}, impermeable, span, 1}
+      walls ? Body{fmt::format("plate between walls {} m apart", words[1]), {}, impermeable, number(1), 1}
       : plate
           ? Body{"square plate", square_plate(1, {}), impermeable, 1, 1}
           : centred({words[at], read_stl(words[at]), {number(at + 1), number(at + 2)}, pi / 4 * d0 * d0, d0});
