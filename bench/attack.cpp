@@ -2,6 +2,8 @@
 // body and the stream: 0 for a plate across the stream.
 //
 // bench_attack [HOW] plate CELLS ANGLE...              a square plate of 1 m, impermeable
+// bench_attack between-walls SPAN CELLS ANGLE...       a plate of 1 m between two walls, SPAN m apart: a flow that is
+//                                                      plane in the mean. Here the plate turns on the cells
 // bench_attack [HOW] FILE.stl A B D0 CELLS ANGLE...    a surface with the pressure drop A v + B v |v| and nominal
 //                                                      diameter D0
 //     HOW  nothing: built-in engine, in time; "steady": its steady iteration; "fitted FOLDER": OpenFOAM, steady, on a
@@ -64,6 +66,36 @@ FlowProblem problem_of(const Body& body, double angle, int across) {
   return problem;
 }
 
+// Plane flow: slip walls `span` apart at the ends of the plate, and 60 m apart above and below it, which leaves a
+// blockage of 1.7 %.
+std::vector<Triangle> plate_between_walls(double span) {
+  const double end = 0.5 * span + 0.5;  // reaches into the walls
+  const Vec3 a{-0.5, -end, 0}, b{0.5, -end, 0}, c{0.5, end, 0}, d{-0.5, end, 0};
+  return {{a, b, c}, {a, c, d}};
+}
+
+FlowProblem between_walls(double span, double angle, int across) {
+  constexpr double before = 12, behind = 12, above = 30, margin = 0.25, wake = 2, growth = 1.2;
+  const double h = 1.0 / across, half = 0.5 + margin;
+  const Vec3 off = h * Vec3{0.25, 0, 0.125};  // no two edges lie alike on the cells
+  const Vec3 low = Vec3{-half, 0, -half} + off, high = Vec3{half, 0, half + wake} + off;
+  const auto cells = [&](double from, double core_from, double core_to, double to) {
+    return static_cast<int>(std::lround((core_to - core_from) / h)) +
+           cells_outside(h, core_from - from, growth) + cells_outside(h, to - core_to, growth);
+  };
+  FlowProblem problem;
+  problem.grid = graded({{-above, -0.5 * span, -before},
+                         {2 * above, span, before + behind},
+                         cells(-above, low.x, high.x, above),
+                         static_cast<int>(std::lround(span / h)),
+                         cells(-before, low.z, high.z, behind)},
+                        low, high, growth);
+  problem.air.velocity = {0, 0, speed};
+  problem.sides = Sides::slip, problem.outlet = Outlet::still_air;
+  problem.bodies = {sheet_body(turned(plate_between_walls(span), wind_direction(angle)), impermeable)};
+  return problem;
+}
+
 /// How the flow is computed.
 enum class Method { in_time, steady, fitted };
 
@@ -74,11 +106,14 @@ struct Answer {
 
 Answer in_time(const FlowProblem& problem, const Body& body) {
   CartesianSettings settings;
+  settings.threads = 1;  // angles may run at the same time
   settings.small_eddies = SmallEddies::des;
   const auto engine = make_cartesian(settings);
   const auto flow = engine->start(problem);
   Watch how;
   how.length = body.diameter, how.standard_error = 0.005, how.shortest = 20, how.longest = 60;
+  if (body.surface.empty())
+    how.standard_error = 0.02, how.shortest = 60, how.longest = 400;  // sheds every seven widths
   FlowRecord record;
   Answer answer{watch(*flow, problem, how, record)};
   answer.error = record.drag.standard_error / std::abs(record.drag.mean);
@@ -88,6 +123,7 @@ Answer in_time(const FlowProblem& problem, const Body& body) {
 Answer steady(FlowProblem problem) {
   problem.stopping = {.residual = 1e-5, .max_iterations = 600, .average_over = 100};
   CartesianSettings settings;
+  settings.threads = 1;
   settings.second_order = true;
   return {solve(*make_cartesian(settings), problem)};
 }
@@ -107,6 +143,7 @@ constexpr const char* names[] = {"built-in engine, in time, DES", "built-in engi
 
 void attack(const Body& body, int across, const std::vector<double>& angles, Method method,
             const std::string& folder, int argc, char** argv) {
+  const bool walls = body.surface.empty();
   print_table_head(
       fmt::format("{} at an angle of attack, {} cells across: {}", body.name, across,
                   names[static_cast<int>(method)]),
@@ -114,12 +151,13 @@ void attack(const Body& body, int across, const std::vector<double>& angles, Met
       {"angle, deg", "C_T", "C_N", "side force / q S", "standard error of drag, %", "force imbalance, %"});
   for (const double angle : angles) {
     const bool foam = method == Method::fitted;
-    const FlowProblem problem = problem_of(body, angle, foam ? across / 2 : across);
+    const FlowProblem problem =
+        walls ? between_walls(body.area, angle, across) : problem_of(body, angle, foam ? across / 2 : across);
     const Answer answer = foam                       ? fitted(problem, folder)
                           : method == Method::steady ? steady(problem)
                                                      : in_time(problem, body);
     const FlowField& field = answer.field;
-    const Attitude attitude{{0, 0, 1}, problem.air.velocity};
+    const Attitude attitude{walls ? wind_direction(angle) : Vec3{0, 0, 1}, problem.air.velocity};
     const Coefficients c =
         coefficients(field.bodies.at(0), attitude, {problem.air.density, body.area, body.diameter});
     print_row({fmt::format("{:g}", angle), fmt::format("{:.3f}", c.tangential),
@@ -142,16 +180,19 @@ int main(int argc, char** argv) {
   std::string folder;
   if (words.size() > 1 && words[0] == "steady") method = Method::steady, at = 1;
   if (words.size() > 2 && words[0] == "fitted") method = Method::fitted, folder = words[1], at = 2;
-  const bool plate = at < words.size() && words[at] == "plate";
-  const std::size_t first = at + (plate ? 1 : 4);
+  const bool walls = !words.empty() && words[0] == "between-walls";
+  const bool plate = walls || (at < words.size() && words[at] == "plate");
+  const std::size_t first = at + (walls ? 2 : plate ? 1 : 4);
   if (words.size() < first + 2)
     return fmt::print(
-               "bench_attack [steady|fitted FOLDER] plate CELLS ANGLE... | FILE.stl A B D0 CELLS ANGLE...\n"),
+               "bench_attack [steady|fitted FOLDER] plate CELLS ANGLE... | FILE.stl A B D0 CELLS ANGLE...\n"
+               "bench_attack between-walls SPAN CELLS ANGLE...\n"),
            2;
   const auto number = [&](std::size_t n) { return std::atof(words[n].c_str()); };
   const double d0 = plate ? 1 : number(at + 3);
   const Body body =
-      plate
+      walls ? Body{fmt::format("plate between walls {} m apart", words[1]), {}, impermeable, number(1), 1}
+      : plate
           ? Body{"square plate", square_plate(1, {}), impermeable, 1, 1}
           : centred({words[at], read_stl(words[at]), {number(at + 1), number(at + 2)}, pi / 4 * d0 * d0, d0});
   std::vector<double> angles;

@@ -82,6 +82,7 @@ Result force_on(const Body& body, Direction direction, int across) {
   const FlowProblem problem = problem_of(body, direction, across);
   CartesianSettings settings;
   settings.second_order = true;
+  settings.threads = 1;  // rows may run at the same time
   const FlowField field = solve(*make_cartesian(settings), problem);
   const Vec3 wind = wind_direction(direction.angle, direction.azimuth);
   const double unit = 0.5 * problem.air.density * speed * speed * 0.25 * 3.14159265358979;

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """One table of all comparisons with measurements, handbooks, other codes and published computations: docs/validation/scoreboard.md.
 The numbers are read from the tables of docs/tables, which their own commands make. Only errors and means are computed here."""
+import math
 import pathlib
 import re
 import statistics
@@ -121,6 +122,11 @@ def bodies(board):
     board.against("comparison", "$C_N$, square plate across the stream, 12 cells, unsteady", "1.170", f"{plates['0']:.3f}", command, "plates")
     board.against("comparison", "$C_N$ at 30 degrees incidence over that at 90, square plate, unsteady", "1.24",
                   f"{plates['60'] / plates['0']:.2f}", command, "plates")
+    for row in tables("plate")[0]:
+        incidence = 90 - number(row["angle, deg"])
+        measured = 1 / (0.222 + 0.283 / math.sin(math.radians(incidence)))  # Hoerner1965
+        board.against("comparison", f"$C_N$, plate between walls at {incidence:g} degrees incidence, 8 cells, unsteady", f"{measured:.3f}", row["C_T"],
+                      "build-check/bench/bench_attack between-walls 2.5 8 0 30 45 60", "plate")
     for row in tables("judge")[0]:
         board.against("cross-validation", f"$C_D$ on the frontal area, {row['body']}, OpenFOAM", row["OpenFOAM"], row["drag on its front, built-in"],
                       "make judge", "judge", error=row["built-in compared with OpenFOAM"])

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "ripstop/core/error.h"
+#include "ripstop/core/quantity_error.h"
 #include "ripstop/flow/extent.h"
 
 namespace ripstop::inline flow {
@@ -53,11 +54,13 @@ void check_inside(const FlowProblem& problem, const FlowBody& body) {
   for (int axis = 0; axis < 3; ++axis) {
     if (axis < 2 && problem.sides == Sides::slip) continue;
     if (extent.low[axis] >= low[axis] && extent.high[axis] <= high[axis]) continue;
-    throw Error(
+    throw QuantityError(
         ExitCode::usage,
-        fmt::format("flow: body \"{}\" extends from {} = {:.4g} to {:.4g} m, but the flow domain from {:.4g} "
-                    "to {:.4g} m; move the body or enlarge the domain",
-                    body.name, "xyz"[axis], extent.low[axis], extent.high[axis], low[axis], high[axis]));
+        fmt::format(
+            "flow: body \"{}\" extends from {} = {:.4g} to {:.4g} m, which must lie within {:.4g} to "
+            "{:.4g} m, the extent of the domain; change the place of the body or the size of the domain",
+            body.name, "xyz"[axis], extent.low[axis], extent.high[axis], low[axis], high[axis]),
+        {"the place of the body", "the size of the domain"});
   }
 }
 
@@ -74,10 +77,13 @@ void check_bodies(const FlowProblem& problem) {
             fmt::format("flow: bodies {} and {} have the same name \"{}\"; each needs a different name",
                         m + 1, n + 1, bodies[n].name));
       if (overlap(bodies[m], bodies[n]))
-        throw Error(
+        throw QuantityError(
             ExitCode::usage,
-            fmt::format("flow: the surfaces of the bodies \"{}\" and \"{}\" intersect; move them apart",
-                        bodies[m].name, bodies[n].name));
+            fmt::format(
+                "flow: the surfaces of the bodies \"{}\" and \"{}\" intersect; they must be apart: change, "
+                "for one of them, the place of the body",
+                bodies[m].name, bodies[n].name),
+            {"the place of the body"});
     }
   }
 }

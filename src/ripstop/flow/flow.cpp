@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "ripstop/core/error.h"
+#include "ripstop/core/quantity_error.h"
 #include "ripstop/flow/average.h"
 
 namespace ripstop::inline flow {
@@ -71,12 +72,13 @@ void check_stream(const Freestream& air) {
   constexpr double most_mach = 0.3, ratio_of_heats = 1.4;
   const double sound = std::sqrt(ratio_of_heats * gas_constant_of_air * air.temperature), speed = air.speed();
   if (speed > 0 && !(speed > most_mach * sound)) return;
-  throw Error(
+  throw QuantityError(
       ExitCode::usage,
       fmt::format(
-          "free stream: the speed = {:g} m/s must be above 0 and at most {:.4g} m/s, Mach {} at {:g} K; "
-          "change the velocity or the temperature",
-          speed, most_mach * sound, most_mach, air.temperature));
+          "speed of the free stream = {:g} m/s: must be above 0 and at most {:.4g} m/s, Mach {} at {:g} K; "
+          "change it or the temperature of the air",
+          speed, most_mach * sound, most_mach, air.temperature),
+      {"speed of the free stream", "the temperature of the air"});
 }
 
 FlowBody sheet_body(std::vector<Triangle> surface, PressureDrop law, std::string name) {

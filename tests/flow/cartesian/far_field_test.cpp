@@ -102,9 +102,7 @@ TEST(FarField, WhileAGustTurnsTheWindMassAndMomentumAreBalancedInEveryStep) {
   for (int n = 0; n < 120; ++n) {
     const FlowStep step = flow->march(1, 0.5);
     ASSERT_NEAR(norm(step.momentum_gap), 0, 1e-7 * largest) << n;
-    if (n > 5) {
-      ASSERT_LT(step.mass_defect, 2e-3) << n;
-    }
+    ASSERT_LT(step.mass_defect, n == 1 ? 4e-3 : 2e-3) << n;  // largest after the jump of the inflow
   }
   const FlowField field = flow->field();
   EXPECT_LT(norm(sample(field.grid, field.velocity, {-2.5, 2.5, -2.5}) - Vec3{6, -5, 6}), 1);
@@ -187,6 +185,8 @@ TEST(Boundaries, AKindIsAddedByOneRow) {
   const FlowField slip = solve(*make_cartesian(one_thread()), problem);
   EXPECT_EQ(mine.porous_force, slip.porous_force);
   EXPECT_EQ(mine.pressure, slip.pressure);
+  problem.sides = Sides::zero_gradient;
+  EXPECT_NE(solve(*make_cartesian(one_thread()), problem).porous_force, slip.porous_force);
 }
 
 TEST(Boundaries, AnUnknownWordIsRefusedWithThoseThatThereAre) {

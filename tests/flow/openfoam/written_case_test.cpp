@@ -313,8 +313,8 @@ TEST_F(WrittenFiles, ANumberOutOfItsRangeIsNamedWithTheRange) {
       {[](FlowProblem& p) {
          p.air.velocity = {0, 0, 151};
        },
-       "free stream: the speed = 151 m/s must be above 0 and at most 100.6 m/s, Mach 0.3 at 280 K; change "
-       "the velocity or the temperature"},
+       "speed of the free stream = 151 m/s: must be above 0 and at most 100.6 m/s, Mach 0.3 at 280 K; change "
+       "it or the temperature of the air"},
       {[](FlowProblem& p) { p.air.density = 101; },
        "flow: air density is 101 kg/m3; it must be in [0.0001, 100]"},
       {[](FlowProblem& p) { p.air.viscosity = 2; }, "flow: viscosity is 2 Pa s; it must be in [1e-07, 1]"},

@@ -164,6 +164,57 @@ TEST_F(StabilityFolder, InEquilibriumHasTheFormulasCoefficientsAndItsShapes) {
   EXPECT_TRUE(fs::exists(folder_ / "equilibrium/angle=10/canopy.stl"));
 }
 
+/// Iterations that never settle: C_T is 0.8 after an odd number of pieces, and 0.6 after an even one.
+class SwingingFlow final : public FormulaFlow {
+ public:
+  explicit SwingingFlow(const FlowProblem& problem) : FormulaFlow(problem), air_(problem.air) {}
+
+  FlowAdvance advance(int iterations, double, const FlowReport&) override {
+    done_ += iterations;
+    FlowAdvance done;
+    done.last = {iterations, 1, 0, 0, 0, 0, 0};
+    return done;
+  }
+  FlowField field() const override {
+    FlowField field = FormulaFlow::field();
+    const double q = 0.5 * air_.density * dot(air_.velocity, air_.velocity) * 3.14159265358979 / 4;
+    field.porous_force = {0, 0, q * (done_ / Stopping::piece % 2 == 1 ? 0.8 : 0.6)};
+    field.bodies = {{field.porous_force, {}}};
+    return field;
+  }
+
+ private:
+  Freestream air_;
+  int done_ = 0;
+};
+
+struct SwingingEngine : FlowEngine {
+  std::string name() const override { return "swinging"; }
+  std::unique_ptr<Flow> start(const FlowProblem& problem) override {
+    return std::make_unique<SwingingFlow>(problem);
+  }
+};
+
+TEST_F(StabilityFolder, OfIterationsThatDoNotSettleHasTheirMeanAndAWarning) {
+  add_engine({"swinging",
+              "iterations that never settle",
+              {.sheets = true, .boundaries = {"slip", "far-field", "fixed-pressure"}},
+              [](const EngineOptions&) { return std::string("swinging 1"); },
+              [](const EngineOptions&) { return std::make_unique<SwingingEngine>(); }});
+  Counter observer;
+  Case swings = given();
+  swings.flow.engine = "swinging";
+  const StabilityResult result = run_stability(swings, {0}, in("swinging"), observer);
+  ASSERT_EQ(result.rows.size(), 1u);
+  EXPECT_NEAR(result.rows[0].c_t, 0.7, 1e-9);
+  EXPECT_FALSE(result.rows[0].c_t_error);
+  EXPECT_FALSE(result.rows[0].enough);
+  ASSERT_EQ(result.warnings.size(), 1u);
+  EXPECT_NE(result.warnings[0].find("0 degrees: the flow did not reach its residual, the row is a mean"),
+            std::string::npos)
+      << result.warnings[0];
+}
+
 TEST_F(StabilityFolder, RefusesASteadyRunAtAnotherSpeed) {
   Counter observer;
   Case other = given();

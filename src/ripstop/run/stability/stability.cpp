@@ -246,8 +246,10 @@ void take_trims(StabilityResult& result) {
                     "{:g} degrees: the standard error of the drag is above flow.watch.standard_error; "
                     "raise flow.watch.longest",
                     row.angle)
-              : fmt::format("{:g} degrees: the flow did not reach its residual; raise flow.max_iterations",
-                            row.angle));
+              : fmt::format(
+                    "{:g} degrees: the flow did not reach its residual, the row is a mean over its last "
+                    "iterations; raise flow.max_iterations",
+                    row.angle));
 }
 
 std::string to_json(const StabilityResult& result) {

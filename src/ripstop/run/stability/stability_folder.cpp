@@ -15,6 +15,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/thread_team.h"
+#include "ripstop/flow/average.h"
 #include "ripstop/flow/steady.h"
 #include "ripstop/flow/stl.h"
 #include "ripstop/fsi/next_load.h"
@@ -37,6 +38,9 @@ constexpr const char* row_text = "the result of an angle of attack";
 
 /// The stream turns from one angle to the next while it passes one inflated diameter.
 constexpr double turning_diameters = 1;
+
+/// A flow that does not settle has the mean of so many fields, Stopping::piece iterations apart.
+constexpr int pieces_of_mean = 8;
 
 constexpr double usual_windows = 4;  // of an angle in equilibrium, for the remaining time
 
@@ -287,13 +291,28 @@ StabilityRow Curve::equilibrium_in_time(std::size_t i, ClaimedFolder& folder, Fl
 
 StabilityRow Curve::at_rest(std::size_t i, FlowEngine& engine, StabilityObserver& observer) {
   const FlowProblem problem = flow_at(i);
-  const FlowField field = solve(engine, problem, [&](const FlowProgress& p) {
-    observer.progress(
-        i,
-        fmt::format("iteration {}, residual {:.1e}, drag {:.2f} N", p.iteration, largest_residual(p), p.drag),
-        double(p.iteration) / problem.stopping.max_iterations);
-    return true;
-  });
+  const int most = problem.stopping.max_iterations;
+  const auto report = [&](int before) {
+    return [&, before](const FlowProgress& p) {
+      const int iteration = before + p.iteration;
+      observer.progress(
+          i,
+          fmt::format("iteration {}, residual {:.1e}, drag {:.2f} N", iteration, largest_residual(p), p.drag),
+          double(iteration) / (most + pieces_of_mean * Stopping::piece));
+      return true;
+    };
+  };
+  const auto flow = engine.start(problem);
+  FlowField field = solve_to_rest(*flow, problem.stopping, report(0));
+  if (!field.converged) {
+    FieldMean mean;
+    for (int n = 0; n < pieces_of_mean; ++n) {
+      flow->advance(Stopping::piece, problem.stopping.residual, report(most + n * Stopping::piece));
+      flow->add_to(mean);
+    }
+    field = mean.mean();
+    field.last.iteration = most + pieces_of_mean * Stopping::piece;
+  }
   return row_of_field(field, problem.air, angles_[i], stability_reference(cases_[i]));
 }
 
