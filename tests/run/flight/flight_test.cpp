@@ -93,6 +93,7 @@ TEST(Flight, RefusesImpossibleFlights) {
     }
   };
   refused([](Case& given) { given.payload.mass_kg.reset(); }, "payload.mass_kg");
+  refused([](Case& given) { given.payload.mass_kg = 0.01; }, "does not keep the lines taut");
   refused([](Case& given) { given.flight.angle_deg = 61; }, "flight.angle_deg");
   refused([](Case& given) { given.flight.wind.speed_m_s = 80, given.flight.wind.gust_m_s = 30; }, "Mach 0.3");
   refused([](Case& given) { given.flight.wind.exponent = 0.2; }, "flight.height_m");

@@ -243,6 +243,7 @@ Settings flight_settings(const Case& given, const fs::path& from) {
 
 FlightSolution run_flight(const Settings& resolved, int threads, FlightObserver& observer,
                           const fs::path& from) {
+  require_payload(resolved);
   const TemporaryFolder temporary("flight");
   const std::optional<FlightStart> earlier = observer.earlier_start();
   Beginning begin;
