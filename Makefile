@@ -165,6 +165,7 @@ validate-filling: build  ## Openings of one canopy with one parameter changed at
 
 validate-flights: build  ## Free flights of ten families, vents, cloths and grids compared with Knacke's values, into docs/tables: three hours; resumable
 	@/usr/bin/python3 validation/flight/campaign.py --ripstop build/bin/ripstop
+	@/usr/bin/python3 validation/flight/shipped.py
 
 validate-stability: build  ## Static coefficients of three families over the angle of attack, into docs/tables: 10 minutes; resumable
 	@/usr/bin/python3 validation/flight/static.py --ripstop build/bin/ripstop
