@@ -153,6 +153,20 @@ def earlier_rows(section):
     return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines if line.startswith("| ")][1:]
 
 
+def flown_on(options, results):
+    """A line for every day, with its flights; the days of flights that are not new are those of the page."""
+    page = ROOT / "docs/tables/flights.md"
+    days = {}
+    for line in page.read_text().splitlines() if page.exists() else []:
+        if line.startswith("Flown on "):
+            day, _, names = line.removeprefix("Flown on ").rstrip(".").partition(": ")
+            days[day] = [name for name in names.split(", ") if name not in results]
+    for name in results:
+        run = json.loads((folder_of(options, name) / "run.json").read_text())
+        days.setdefault(tables.made_by([run]).rpartition(", ")[2], []).append(name)
+    return [line for day, names in days.items() if names for line in (f"Flown on {day}: {', '.join(names)}.", "")]
+
+
 def merged(section, rows, keys=1):
     """New rows replace those of the page with the same first cells; the other rows of the page remain."""
     new = {tuple(row[:keys]): row for row in rows}
@@ -252,7 +266,7 @@ def write_tables(options):
     conditions = (f"Payload {PAYLOAD_KG:g} kg, released at {RELEASED_AT_DEG} degrees, nominal diameter 1.76 m, 1.2 kg/m3, still air, cloth of "
                   "100 CFM (MIL-C-7020 type I). C_D0 on the axis: of the steady flow in which each flight begins.")
     families = families_rows(results)
-    lines = [conditions, f"Flown on that day: {', '.join(results)}. Other rows are of an earlier day.", "", "## Families", "", *tables.table(FAMILIES_HEAD, families), count_line(families), "",
+    lines = [conditions, "", *flown_on(options, results), "## Families", "", *tables.table(FAMILIES_HEAD, families), count_line(families), "",
              f"Kind: steady below {STEADY_BELOW} degrees in the mean of the peaks, swinging from {SWINGING_FROM} degrees. Knacke's "
              "coefficients: Tables 5-1 and 5-2 as transcribed. His angles: of the slotted canopies from a reprint read by character "
              "recognition; of the others from memory.", "",

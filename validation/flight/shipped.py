@@ -41,11 +41,13 @@ def rows():
 
 
 def main():
-    page = (ROOT / "docs/tables/flights.md").read_text()
+    page = (ROOT / "docs/tables/flights.md").read_text().splitlines()
+    processor = page[2].partition("`: ")[2].rpartition(", ")[0]
+    days = [line.removeprefix("Flown on ").partition(": ")[0] for line in page if line.startswith("Flown on ")]
     data = {
         "what": "Drag coefficient in descent on the nominal area, of free flights by Ripstop, with its standard error",
         "made_by": "make validate-flights",
-        "made_on": page.splitlines()[2].partition("`: ")[2].rstrip("."),
+        "made_on": f"{processor}, {', '.join(days)}",
         "table": "docs/tables/flights.md",
         "flights": list(rows()),
     }
