@@ -237,7 +237,7 @@ def force_balance(folder, area, density):
 def balance_table(options, results):
     rows = []
     for name, r in results.items():
-        if r["descent_drag_coefficient"] is None:
+        if r["descent_drag_coefficient"] is None or r["duration_s"] < 1.2 * BEGIN_S:
             continue
         mean = force_balance(folder_of(options, name), r["reference_area_m2"], r["density_kg_m3"])
         whole = r["descent_drag_coefficient"] * (r["rate_of_descent_m_s"] / mean["descent"]) ** 2

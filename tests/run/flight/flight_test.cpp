@@ -115,22 +115,6 @@ TEST(Flight, ThatTurnsOverIsReportedWithItsTime) {
   EXPECT_NE(r.warnings.back().find("turned over"), std::string::npos);
 }
 
-TEST(Flight, WhoseCanopyLeavesItsFineCellsEndsWithAnError) {
-  try {
-    flown([](Case& given) {
-      given.flow.cells = {24, 24, 32};
-      given.flow.core.size_m = Vec3{0.9, 0.9, 1.2};
-      given.flight.velocity_m_s = Vec3{25, 0, 0};
-      given.flight.duration_s = 0.6;
-    });
-    ADD_FAILURE();
-  } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("s: the canopy has left the fine cells"), std::string::npos)
-        << error.what();
-    EXPECT_EQ(error.code(), ExitCode::not_converged);
-  }
-}
-
 TEST(Flight, WhoseMouthClosesInItsSecondHalfHasAWarning) {
   std::vector<FreeFlightRow> rows(100);
   for (int i = 0; i < 100; ++i) rows[i].time = 0.01 * i, rows[i].step = 0.01, rows[i].mouth_area = 1;
