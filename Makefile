@@ -34,7 +34,7 @@ ARCH_CHECK := gtest benchmark python pybind11 python-numpy python-jsonschema
 
 export PATH := /usr/bin:$(PATH)
 
-.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-openings validate-filling validate-flights judge torture test-sizes test-tutorials test-drawings test-slurm test-hosts test-debian12 test-debian13 scaling docs reference report-libraries format format-check install-build install wheel tarball test-portable container package clean
+.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-openings validate-filling validate-flights validate-stability judge torture test-sizes test-tutorials test-drawings test-slurm test-hosts test-debian12 test-debian13 scaling docs reference report-libraries format format-check install-build install wheel tarball test-portable container package clean
 
 help:  ## This list
 	@grep -hE '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -165,8 +165,12 @@ validate-openings: build  ## Coupled inflation of the same types, infinite mass,
 validate-filling: build  ## Openings of one canopy with one parameter changed at a time, into docs/tables: ten minutes; resumable
 	@/usr/bin/python3 validation/opening/filling.py --ripstop build/bin/ripstop
 
-validate-flights: build  ## Free flights of ten families, vents, cloths and grids compared with Knacke's values, into docs/tables: two hours; resumable
+validate-flights: build  ## Free flights of ten families, vents, cloths and grids compared with Knacke's values, into docs/tables: three hours; resumable
 	@/usr/bin/python3 validation/flight/campaign.py --ripstop build/bin/ripstop
+	@/usr/bin/python3 validation/flight/shipped.py
+
+validate-stability: build  ## Static coefficients of three families over the angle of attack, into docs/tables: 10 minutes; resumable
+	@/usr/bin/python3 validation/flight/static.py --ripstop build/bin/ripstop
 
 judge: check-deps build  ## Cross-validation of the built-in engine with OpenFOAM on fitted meshes, into docs/tables: an hour and more
 	@cmake --preset release > /dev/null

@@ -1,78 +1,58 @@
 #!/usr/bin/env python3
 """Writes the coefficients in descent of free flights for `ripstop size` into examples/flown.json.
 
-    /usr/bin/python3 validation/flight/shipped.py runs/flights/flat-circular-f-111 runs/flights/cross-f-111 ...
-    /usr/bin/python3 validation/flight/shipped.py runs/flights/*
+    /usr/bin/python3 validation/flight/shipped.py
 
-Each folder is a finished run of `ripstop fly`. A row is for a family and a cloth, with the longest flight of both. Flights with
-another vent, other cells or other steps, and failed flights, are left out.
+Reads the table of families in docs/tables/flights.md, which `make validate-flights` writes. A row is for a family and a cloth.
+Failed flights and flights with fewer than four half-swings are left out.
 """
 import json
 import pathlib
-import sys
-import tomllib
+
+import campaign
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-CELLS_ACROSS, COURANT = 20, 0.7  # the defaults of [flight]
+CLOTHS = {"100": "mil-c-7020-type-i", "3": "f-111-physical"}
+LEAST_HALF_SWINGS = 4
 
 
-def family_of(type_name):
-    rows = json.loads((ROOT / "examples/families.json").read_text())["families"]
-    return next((row["family"] for row in rows if row["type"] == type_name), None)
+def number(cell):
+    """Value and standard error of a cell "0.742 +- 0.013"."""
+    value, _, error = cell.partition(" +- ")
+    return float(value), float(error) if error else 0.0
 
 
-def vent_share(parachute):
-    nominal = parachute.get("nominal_diameter_m")
-    return round(parachute["vent_diameter_m"] / nominal, 3) if nominal and "vent_diameter_m" in parachute else None
-
-
-def row_of(folder):
-    """None unless the flight is that of the family's example by the default method."""
-    result = json.loads((folder / "result.json").read_text())
-    run = json.loads((folder / "run.json").read_text())
-    case, flight = run["case"], run["case"].get("flight", {})
-    family = family_of(case["parachute"]["type"])
-    if family is None or result.get("descent_drag_coefficient") is None or not result["usable"]:
-        return None
-    if flight.get("cells_across", CELLS_ACROSS) != CELLS_ACROSS or flight.get("courant", COURANT) != COURANT:
-        return None
-    own = ROOT / "validation/flight" / f"{family}.toml"
-    if own.exists() and vent_share(tomllib.loads(own.read_text())["parachute"]) != vent_share(case["parachute"]):
-        return None
-    return {
-        "family": family,
-        "canopy_material": case["parachute"]["canopy_material"],
-        "drag_coefficient": round(result["descent_drag_coefficient"], 3),
-        "standard_error": round(result["descent_drag_coefficient_standard_error"] or 0, 3),
-        "axial_drag_coefficient": round(result["axial_drag_coefficient"], 3),
-        "mean_oscillation_deg": result["mean_oscillation_deg"] and round(result["mean_oscillation_deg"], 1),
-        "half_swings": result["half_swings"],
-        "duration_s": round(result["duration_s"], 1),
-    }, run["processor"], run["started"][:10]
-
-
-def write(folders):
-    best, made = {}, set()
-    for folder in map(pathlib.Path, folders):
-        found = row_of(folder) if (folder / "result.json").exists() else None
-        if found is None:
-            print(f"{folder}: left out", file=sys.stderr)
+def rows():
+    for cells in campaign.earlier_rows("Families"):
+        row = dict(zip(campaign.FAMILIES_HEAD, cells))
+        if not row["C_D0 in descent"] or int(row["half-swings"]) < LEAST_HALF_SWINGS:
             continue
-        row, processor, day = found
-        key = row["family"], row["canopy_material"]
-        if key not in best or row["duration_s"] > best[key]["duration_s"]:
-            best[key] = row
-            made.add(f"{processor}, {day}")
-    if not best:
-        sys.exit("no flight to take")
+        value, error = number(row["C_D0 in descent"])
+        yield {
+            "family": row["family"],
+            "canopy_material": CLOTHS[row["cloth CFM"]],
+            "drag_coefficient": value,
+            "standard_error": error,
+            "axial_drag_coefficient": float(row["C_D0 on the axis"]),
+            "mean_oscillation_deg": number(row["mean oscillation deg"])[0],
+            "half_swings": int(row["half-swings"]),
+            "duration_s": float(row["flight s"]),
+        }
+
+
+def main():
+    page = (ROOT / "docs/tables/flights.md").read_text().splitlines()
+    processor = page[2].partition("`: ")[2].rpartition(", ")[0]
+    days = [line.removeprefix("Flown on ").partition(": ")[0] for line in page if line.startswith("Flown on ")]
     data = {
         "what": "Drag coefficient in descent on the nominal area, of free flights by Ripstop, with its standard error",
         "made_by": "make validate-flights",
-        "made_on": "; ".join(sorted(made)),
-        "flights": [best[key] for key in sorted(best)],
+        "made_on": f"{processor}, {', '.join(days)}",
+        "table": "docs/tables/flights.md",
+        "flights": list(rows()),
     }
-    (ROOT / "examples/flown.json").write_text(json.dumps(data, indent=2) + "\n")
+    (ROOT / "examples/flown.json").write_text(json.dumps(data, indent=2, ensure_ascii=False) + "\n")
 
 
 if __name__ == "__main__":
-    write(sys.argv[1:])
+    main()

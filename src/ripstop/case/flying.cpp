@@ -22,9 +22,10 @@ namespace {
 constexpr double growth = 1.2;  // of the cells outside of the core: a coarse grid in a wide box
 // The flight begins with the equilibrium on the axis and does not depend on its last percent.
 constexpr int start_flow_iterations = 100, start_average = 30, start_iterations = 12;
-constexpr int multiple = 4;           // of cells along an axis, for the multigrid
-constexpr double fastest = 100;       // of wind and gust together, below Mach 0.3 [m/s]
-constexpr double least_pressure = 2;  // dynamic pressure over the weight of the cloth an area
+constexpr int multiple = 4;             // of cells along an axis, for the multigrid
+constexpr double fastest = 100;         // of wind and gust together, below Mach 0.3 [m/s]
+constexpr double least_pressure = 2;    // dynamic pressure over the weight of the cloth an area
+constexpr double least_payload = 0.25;  // over the mass of the parachute; below it the lines are hardly taut
 
 /// Cells of width h in the core, growing outside of it.
 int cells_along(double core, double before, double after, double h) {
@@ -140,7 +141,7 @@ FlightProblem problem_at(const Settings& flight, double rate, int threads) {
   if (dynamic < least_pressure * weight)
     refuse(fmt::format(
         "payload.mass_kg = {:g}: at its rate of descent of {:.3g} m/s the dynamic pressure of "
-        "{:.3g} Pa does not hold up the canopy's cloth ({:.3g} Pa); a heavier payload or a smaller "
+        "{:.3g} Pa does not carry the weight of the cloth ({:.3g} Pa); a heavier payload or a smaller "
         "canopy is needed",
         *flight.payload().mass_kg, rate, dynamic, weight));
   FlightProblem problem;
@@ -190,6 +191,15 @@ Case continued_case(const Case& given, const Settings& opening) {
   flow.core.size_m.reset(), flow.core.start_m.reset(), flow.core.growth.reset();
   take_coarse_cells(flight, given.flight.cells_across);
   return flight;
+}
+
+void require_payload(const Settings& flight) {
+  const double payload = *flight.payload().mass_kg, least = least_payload * parachute_mass(flight);
+  if (payload < least)
+    refuse(fmt::format(
+        "payload.mass_kg = {:g}: must be at least {:.3g} kg, a quarter of the mass of its parachute, because "
+        "a lighter payload does not keep the lines taut; use a heavier payload or a smaller canopy",
+        payload, least));
 }
 
 FlightProblem flight_problem(const Settings& flight, std::vector<Vec3> shape, std::vector<double> pressure,

@@ -16,6 +16,9 @@ Case flight_case(const Case& given);
 /// of the inflation; the cells too, unless the case gives flight.cells_across. Throws Error(usage) for another payload.
 Case continued_case(const Case& given, const Settings& opening);
 
+/// Throws Error(usage) for a payload that is so light compared with its parachute that its lines are not taut.
+void require_payload(const Settings& flight);
+
 /// Of the settings of flight_case(), at the rate of descent of `shape` under `pressure` [Pa], which is flow.speed_m_s.
 FlightProblem flight_problem(const Settings& flight, std::vector<Vec3> shape, std::vector<double> pressure,
                              int threads);

@@ -9,6 +9,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <vector>
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
@@ -93,6 +94,7 @@ TEST(Flight, RefusesImpossibleFlights) {
     }
   };
   refused([](Case& given) { given.payload.mass_kg.reset(); }, "payload.mass_kg");
+  refused([](Case& given) { given.payload.mass_kg = 0.01; }, "does not keep the lines taut");
   refused([](Case& given) { given.flight.angle_deg = 61; }, "flight.angle_deg");
   refused([](Case& given) { given.flight.wind.speed_m_s = 80, given.flight.wind.gust_m_s = 30; }, "Mach 0.3");
   refused([](Case& given) { given.flight.wind.exponent = 0.2; }, "flight.height_m");
@@ -111,6 +113,17 @@ TEST(Flight, ThatTurnsOverIsReportedWithItsTime) {
   EXPECT_FALSE(r.descent || r.coefficient || r.oscillation);
   ASSERT_FALSE(r.warnings.empty());
   EXPECT_NE(r.warnings.back().find("turned over"), std::string::npos);
+}
+
+TEST(Flight, WhoseMouthClosesInItsSecondHalfHasAWarning) {
+  std::vector<FreeFlightRow> rows(100);
+  for (int i = 0; i < 100; ++i) rows[i].time = 0.01 * i, rows[i].step = 0.01, rows[i].mouth_area = 1;
+  EXPECT_FALSE(mouth_warning(rows));
+  for (int i = 30; i < 50; ++i) rows[i].mouth_area = 0.1;  // and it opens again
+  EXPECT_FALSE(mouth_warning(rows));
+  for (int i = 50; i < 100; ++i) rows[i].mouth_area = 0.63;
+  ASSERT_TRUE(mouth_warning(rows));
+  EXPECT_NE(mouth_warning(rows)->find("63 % of its area"), std::string::npos) << *mouth_warning(rows);
 }
 
 /// Ends in the middle, after a checkpoint.

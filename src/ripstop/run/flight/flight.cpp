@@ -31,6 +31,8 @@ constexpr double look_every = 1;  // [s]
 constexpr int least_half_swings = 20;
 // A start-up longer than this share of the flight is a flight whose motion still changes.
 constexpr double longest_start_up = 1.0 / 3;
+// Of the mouth at the start, below which a canopy of the second half of a flight counts as partly closed (assumed).
+constexpr double open_mouth = 0.8;
 constexpr int shots_on_sheet = 8;
 
 /// The equilibrium on the axis; saves its flow.
@@ -205,6 +207,8 @@ FlightResult result_of(const Settings& resolved, const FreeFlight& flight, const
   r.margins = case_margins(resolved, flight.mesh(), state.coupled.record.peak_tension, r.stress);
   r.flow_steps = state.coupled.air.steps, r.cloth_steps = state.coupled.cloth.steps;
   take_quality(r, resolved);
+  if (!start.opening)
+    if (const auto warning = mouth_warning(history.rows)) r.warnings.push_back(*warning);
   return r;
 }
 
@@ -225,6 +229,22 @@ void look_at_shape(const FreeFlight& flight, FreeFlightState& state) {
 
 }  // namespace
 
+std::optional<std::string> mouth_warning(const std::vector<FreeFlightRow>& rows) {
+  const double middle = 0.5 * (rows.front().time + rows.back().time);
+  double area = 0, time = 0;
+  for (const FreeFlightRow& row : rows)
+    if (row.time >= middle) area += row.step * row.mouth_area, time += row.step;
+  const double share = area / (time * rows.front().mouth_area);
+  if (share >= open_mouth) return {};
+  return fmt::format(
+      "in the second half of the flight the mouth has {:.0f} % of its area at the start: narrow rings or "
+      "sails "
+      "may have turned over; use more nodes (parachute.mesh.cloth_nodes), and inflation.cloth_compression = "
+      "0.1 "
+      "(docs/guide/fly.md)",
+      100 * share);
+}
+
 std::string to_json(const FlightResult& result) {
   return json_text(result);
 }
@@ -243,6 +263,7 @@ Settings flight_settings(const Case& given, const fs::path& from) {
 
 FlightSolution run_flight(const Settings& resolved, int threads, FlightObserver& observer,
                           const fs::path& from) {
+  require_payload(resolved);
   const TemporaryFolder temporary("flight");
   const std::optional<FlightStart> earlier = observer.earlier_start();
   Beginning begin;

@@ -130,6 +130,8 @@ void each_member(T& r, Visit&& visit) {
   visit("usable", r.usable);
 }
 std::string to_json(const FlightResult& result);
+/// Of a flight from the equilibrium on the axis whose mouth has partly closed.
+std::optional<std::string> mouth_warning(const std::vector<FreeFlightRow>& rows);
 
 /// Where a flight begins: the canopy in equilibrium on the axis, at the speed at which its drag is the weight, or the
 /// end of an inflation.
