@@ -169,7 +169,7 @@ class StudioPage(unittest.TestCase):
         self.until("!document.getElementById('undo').disabled")
         self.type_into("[data-control=against]", "a-2.toml")
         self.until("document.querySelector('[data-part=loads]').dataset.against === 'a-2.toml'")
-        self.until("document.querySelectorAll('.panes [data-part=timing][data-done=true]').length === 2")
+        self.until("document.querySelectorAll('.panes [data-part=timing][data-state=final]').length === 2")
         self.until("Studio.design().packed > 0 && Studio.design().otherPacked > 0 && document.querySelectorAll('[data-part=facts] tr:first-child td').length === 4")
         mass = self.browser.evaluate("[...document.querySelectorAll('[data-part=facts] tr')].find((row) => row.textContent.startsWith('lines')).innerText.split('\\t')")
         self.assertGreater(float(mass[1]), float(mass[2]))
