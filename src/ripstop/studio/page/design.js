@@ -8,7 +8,7 @@ class Design {
     this.data = null;  // of the file, as the server read it
     this.history = new Map();  // file -> {undo: [text], redo: [text]}
     this.busy = Promise.resolve();
-    this.form = new Form(schema, (key, value) => this.change(key, value));
+    this.form = new Form(schema, (changes) => this.changeAll(changes));
     const page = `page${Math.random().toString(36).slice(2)}`;
     this.shape = new ShapePane(`${page}-a`);
     this.other = new ShapePane(`${page}-b`);
@@ -47,6 +47,7 @@ class Design {
 
   /** The case files of the folder, of which one can be compared with this. */
   files(names) {
+    this.folderFiles = names;
     const others = names.filter((name) => name !== this.file), known = JSON.stringify(others);
     if (this.choice.dataset.names === known) return;
     this.choice.dataset.names = known;
@@ -126,10 +127,13 @@ class Design {
     return this.busy;
   }
 
-  change(key, value) {
+  change(key, value) { return this.changeAll({ [key]: value }); }
+
+  /** `changes`: keys with their JSON values, null to remove one. */
+  changeAll(changes) {
     return this.queued(async () => {
       const before = this.data.text;
-      const data = await Server.post("/api/case/change", { file: this.file, version: this.data.version, changes: { [key]: value } });
+      const data = await Server.post("/api/case/change", { file: this.file, version: this.data.version, changes });
       this.remember(before);
       this.show(data);
       this.draw();
