@@ -105,17 +105,20 @@ def main():
     rows = [row for family in families for row in family.rows]
 
     def line(name, rows):
-        first, rest = [row[0] for row in rows], [row[1] for row in rows if row[1]]
-        cells = [f"{pick([row[which] for row in of]):.2f}" for of in (first, rest) for which in (0, 1)
-                 for pick in (statistics.median, lambda values: percentile(values, 0.95), max)]
+        first, rest = [row[0] for row in rows], [row[1] for row in rows if row[1]] or [(float("nan"), float("nan"))]
+        wall, spent = 0, 1
+        cells = [statistics.median(row[wall] for row in first), percentile([row[wall] for row in first], 0.95), max(row[wall] for row in first),
+                 percentile([row[spent] for row in first], 0.95), statistics.median(row[wall] for row in rest), percentile([row[wall] for row in rest], 0.95),
+                 percentile([row[spent] for row in rest], 0.95)]
         at_once = sum(row[2] for row in rows)
-        return f"| {name} | {len(rows)} | {' | '.join(cells)} | {100 * at_once / len(rows):.0f} | {len(rows) - len(rest)} |"
+        return f"| {name} | {len(rows)} | {' | '.join(f'{cell:.2f}' for cell in cells)} | {100 * at_once / len(rows):.0f} | {sum(not row[1] for row in rows)} |"
 
     print("# From a change of a design to its shape in Studio\n")
-    print(f"`python3 bench/live_shape.py build-check/bin/ripstop {wanted}`: {platform.machine()}, {len(os.sched_getaffinity(0))} cores, load average "
-          f"{os.getloadavg()[1]:.1f}, {time.strftime('%-d %B %Y')}. {NODES} nodes of cloth. Times in s: median, 95 %, largest.\n")
-    print("| family | changes | first shape | 95 % | largest | its processor time | 95 % | largest | equilibrium | 95 % | largest | its processor time | 95 % | largest | in equilibrium at once, % | without equilibrium |")
-    print("|---|" + 15 * "---|")
+    print(f"`python3 bench/live_shape.py build/bin/ripstop {wanted}`: {platform.machine()}, {len(os.sched_getaffinity(0))} cores, load average "
+          f"{os.getloadavg()[1]:.1f}, {time.strftime('%-d %B %Y')}. {NODES} nodes of cloth. Times from the change in s, to the first shape and to the "
+          "equilibrium. CPU: processor time of the server and its checks.\n")
+    print("| family | changes | first shape, median | 95 % | largest | CPU, 95 % | equilibrium, median | 95 % | CPU, 95 % | in equilibrium at once, % | without equilibrium |")
+    print("|---|" + 10 * "---|")
     for family in families:
         print(line(family.name, family.rows))
     print(line("all", rows))

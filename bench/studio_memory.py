@@ -69,7 +69,7 @@ def main():
     page = Page(folder)
     cases = [(path.name, lengths(page.studio.get("/api/case", file=path.name)[1])) for path in sorted(folder.glob("*.toml"))]
     print("# Memory of Studio over changes\n")
-    print(f"`python3 bench/studio_memory.py build-check/bin/ripstop {MINUTES:g} {INTERVAL:g}`: {len(cases)} families, a change every {INTERVAL:g} s, load average "
+    print(f"`python3 bench/studio_memory.py build/bin/ripstop {MINUTES:g} {INTERVAL:g}`: {len(cases)} families, a change every {INTERVAL:g} s, load average "
           f"{os.getloadavg()[1]:.1f}, {time.strftime('%-d %B %Y')}. Memory in MiB.\n")
     print("| minute | changes | without a shape in time | server | scripts of the page | nodes of the page | geometries of its shape |\n|---|---|---|---|---|---|---|")
     rows = 0

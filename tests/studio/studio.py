@@ -4,6 +4,7 @@ import json
 import pathlib
 import signal
 import subprocess
+import time
 import urllib.parse
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
@@ -19,6 +20,15 @@ class Studio:
             raise RuntimeError(f"no address, exit code {self.process.wait()}")
         parts = urllib.parse.urlsplit(self.address)
         self.port, self.token = parts.port, urllib.parse.parse_qs(parts.query)["token"][0]
+
+    @classmethod
+    def reopened(cls, program, folder):
+        """Of a folder whose server was killed: once the system has ended its processes."""
+        while True:
+            try:
+                return cls(program, folder)
+            except RuntimeError:
+                time.sleep(0.05)
 
     def request(self, method, path, body=None, headers=None, without=()):
         """Status, headers and bytes; `headers` replace those of the page, `without` names some to leave out."""

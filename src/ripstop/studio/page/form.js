@@ -40,6 +40,7 @@ class Form {
   static repeated(schema, name, written, groups, each) {
     const variants = each.anyOf ?? [each], known = new Set(variants.flatMap((one) => Object.keys(one.properties)));
     const listed = schema.type === "array", tables = new Set();
+    if (variants.length > 1 && !Form.selector(variants)) return;  // materials: in the text only
     for (const key of Object.keys(written)) {
       const found = key.startsWith(name) && key.slice(name.length).match(listed ? /^(\[\d+\])\.([^.[]+)/ : /^(\.[^.]+)\.([^.[]+)/);
       if (found && known.has(found[2])) tables.add(name + found[1]);
@@ -57,8 +58,8 @@ class Form {
       const count = element("small"), title = group.added ? `New [${group.name}${group.added.listed ? "" : ".NAME"}]` : group.name ? `[${group.name}] ` : "Title ";
       const rows = group.added ? this.addition(group) : group.keys.map(([name, described]) => this.row(name, described));
       const end = group.removable ? element("p", { class: "row" }, element("button", { type: "button", onclick: () => this.change({ [group.name]: null }) }, `Remove [${group.name}]`)) : null;
-      const name = group.added ? `new ${group.name}` : group.name, id = group.removable || open.includes(group.name);
-      const node = element("details", { open: before.get(name) ?? (!group.added && id), "data-group": name }, element("summary", { title: group.about }, title, count), rows, end);
+      const name = group.added ? `new ${group.name}` : group.name;
+      const node = element("details", { open: before.get(name) ?? (!group.added && (group.removable || open.includes(group.name))), "data-group": name }, element("summary", { title: group.about }, title, count), rows, end);
       return { node, name, count, about: group.about ?? "", names: group.keys.map(([key]) => key) };
     });
     this.body.replaceChildren(...this.sections.map((section) => section.node));
