@@ -103,6 +103,7 @@ class StudioPage(unittest.TestCase):
     def size_a_case(self):
         self.open()
         self.until("document.getElementById('create').open")
+        self.until("document.querySelector('#create-drawing img').naturalWidth > 0")
         self.picture("new-case")
         self.click("#create-go")
         self.until("document.querySelector('[data-part=timing]').dataset.file === 'my-canopy.toml'")
@@ -134,6 +135,7 @@ class StudioPage(unittest.TestCase):
         self.type_into("#key-parachute\\.gores", "-3")
         self.until("document.querySelector('#key-parachute\\\\.gores').getAttribute('aria-invalid') === 'true'")
         self.assertIn("at least 3", self.browser.evaluate("document.querySelector('[data-key=\"parachute.gores\"] .problem').textContent"))
+        self.until("document.querySelector('[data-part=timing]').textContent.includes('last valid case') && !document.querySelector('[data-part=stale]').hidden")
         self.picture("problem")
         self.click("#undo")
         self.until("document.querySelector('#key-parachute\\\\.gores').getAttribute('aria-invalid') === 'false'")
@@ -264,7 +266,7 @@ class StudioPage(unittest.TestCase):
         self.click("[data-job] [data-focus^=Resume]")
         self.until("!['queued', 'running', 'stopped'].includes(document.querySelector('[data-job]').dataset.state)")
         self.assertEqual(self.browser.evaluate("document.querySelector('[data-job]').dataset.state"), "finished", self.browser.evaluate("document.querySelector('[data-job] .line').textContent"))
-        subprocess.run([PROGRAM, "steady", "a.toml", "--grid", "32,32,40", "--out", "runs/printed"], cwd=self.folder, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        subprocess.run([str(pathlib.Path(PROGRAM).resolve()), "steady", "a.toml", "--grid", "32,32,40", "--out", "runs/printed"], cwd=self.folder, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         results = [json.loads((self.folder / f"runs/{run}/result.json").read_text()) for run in ("a-steady", "printed")]
         for result in results:
             for key in [key for key in result if "time_s" in key]:
@@ -277,7 +279,9 @@ class StudioPage(unittest.TestCase):
         for family in families:
             (self.folder / f"{family}.toml").write_text((ROOT / f"examples/{family}/case.toml").read_text())
         self.open()
+        drawings = self.studio.get("/api/drawings")[1]
         for family in families:
+            self.assertIn("<svg", drawings["types"][drawings["families"][family]], family)
             self.type_into("#case", f"{family}.toml")
             self.until(f"document.querySelector('[data-part=timing]').dataset.file === '{family}.toml'")
             self.until(f"document.querySelector('[data-part=loads]').dataset.file === '{family}.toml'")
@@ -328,6 +332,40 @@ class StudioPage(unittest.TestCase):
             self.browser = first
             second.close()
         self.assertEqual((self.folder / "a.toml").read_text(), (ROOT / "examples/conical/case.toml").read_text())
+
+    def press(self, key, code, text=""):
+        for kind in ("keyDown", "keyUp"):
+            self.browser.call("Input.dispatchKeyEvent", type=kind, key=key, code=key, windowsVirtualKeyCode=code, **({"text": text} if text and kind == "keyDown" else {}))
+
+    def tab_to(self, expression):
+        """Tab until the element with the focus satisfies an expression in `it`."""
+        for _ in range(300):
+            if self.browser.evaluate(f"((it) => {expression})(document.activeElement)"):
+                return
+            self.press("Tab", 9)
+        self.fail(f"not reached by Tab: {expression}")
+
+    def test_the_keyboard_leads_from_mass_and_rate_to_a_pattern(self):
+        self.open()
+        self.until("document.getElementById('create').open")
+        self.tab_to("it.id === 'create-mass'")
+        self.browser.evaluate("document.activeElement.select()")
+        self.press("3", 51, "3")
+        self.picture("keyboard-new")
+        self.press("Enter", 13, "\r")
+        self.until("document.querySelector('[data-part=loads]').dataset.file === 'my-canopy.toml'")
+        self.assertIn("mass_kg = 3", (self.folder / "my-canopy.toml").read_text())
+        self.tab_to("it.id === 'key-parachute.lines.length_m'")
+        self.picture("keyboard-field")
+        self.tab_to("it.getAttribute('aria-selected') === 'true'")
+        self.press("ArrowRight", 39)
+        self.until("document.getElementById('view-pattern') !== null")
+        self.tab_to("it.dataset.control === 'save-pattern'")
+        self.picture("keyboard-pattern")
+        self.press("Enter", 13, "\r")
+        self.until("document.querySelector('#view-pattern [role=status]').textContent.includes('saved in')")
+        self.assertTrue(list((self.folder / "my-canopy-pattern").glob("*.pdf")))
+        self.assertEqual(self.browser.errors, [])
 
     def test_titles_and_names_are_text(self):
         hostile = "<img src=x onerror=window.taken=1></script><script>window.taken=1</script>"

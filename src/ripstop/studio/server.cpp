@@ -192,6 +192,7 @@ void StudioServer::Parts::add_pages() {
 void StudioServer::Parts::add_reading() {
   get("/api/folder", [this](const Request&) { return actions.folder(); });
   get("/api/schema", [](const Request&) { return case_schema(); });
+  get("/api/drawings", [](const Request&) { return studio_drawings(); });
   get("/api/case", [this](const Request& r) { return actions.read(parameter(r, "file")); });
   get("/api/pattern", [this](const Request& r) { return actions.pattern(parameter(r, "file")); });
   get("/api/load", [this](const Request& r) {

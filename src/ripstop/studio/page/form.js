@@ -3,8 +3,8 @@
 
 class Form {
   /** `change` gets an object of keys with JSON values, or null to remove a key or a table. */
-  constructor(schema, change) {
-    Object.assign(this, { schema, change });
+  constructor(schema, drawings, change) {
+    Object.assign(this, { schema, drawings, change });
     this.rows = new Map();
     this.built = null;  // names of the groups that are shown
     this.search = element("input", { type: "search", placeholder: "Find a key", "aria-label": "Find a key", oninput: () => this.filter() });
@@ -57,12 +57,19 @@ class Form {
     this.sections = groups.filter((group) => group.keys.length || group.added).map((group) => {
       const count = element("small"), title = group.added ? `New [${group.name}${group.added.listed ? "" : ".NAME"}]` : group.name ? `[${group.name}] ` : "Title ";
       const rows = group.added ? this.addition(group) : group.keys.map(([name, described]) => this.row(name, described));
+      if (group.name === "parachute") rows.unshift(Form.drawing(this.drawings, group.keys.find(([key]) => key === "parachute.type")?.[1].const));
       const end = group.removable ? element("p", { class: "row" }, element("button", { type: "button", onclick: () => this.change({ [group.name]: null }) }, `Remove [${group.name}]`)) : null;
       const name = group.added ? `new ${group.name}` : group.name;
       const node = element("details", { open: before.get(name) ?? (!group.added && (group.removable || open.includes(group.name))), "data-group": name }, element("summary", { title: group.about }, title, count), rows, end);
       return { node, name, count, about: group.about ?? "", names: group.keys.map(([key]) => key) };
     });
     this.body.replaceChildren(...this.sections.map((section) => section.node));
+  }
+
+  /** The parameters of a canopy type. */
+  static drawing(drawings, type) {
+    const text = drawings.types[type];
+    return element("img", { class: "drawing", hidden: !text, alt: `Drawing of the parameters of the type ${type}`, src: text ? `data:image/svg+xml;charset=utf-8,${encodeURIComponent(text)}` : undefined });
   }
 
   /** Fields of a new table: its name, its kind, and the keys that it needs. */
@@ -100,7 +107,7 @@ class Form {
 
   static label(key, described) {
     const item = described.type === "array" ? described.items : described, units = /_(m|m2|kg|m_s|s|n|pa|deg|hz|k|n_m|kg_m2|kg_m3|pa_s|n_s|n_s_m3|pa_s_m|pa_s2_m2|1_m|1_m2)$/;
-    return [(item.unit ? key.replace(units, "") : key).replaceAll("_", " "), element("small", {}, item.unit ? ` [${item.unit}]` : "")];
+    return [(item.unit ? key.replace(units, "") : key).replaceAll("_", " "), element("small", {}, item.unit ? ` [${item.unit.replace(/([A-Za-z])([234])(?![0-9])/g, (all, letter, power) => letter + "²³⁴"[power - 2])}]` : "")];
   }
 
   static range(s) {
@@ -126,7 +133,7 @@ class Form {
     const from = element("p", { class: "from" }), problem = element("p", { class: "problem", id: `${id}-problem`, role: "alert", hidden: true });
     const help = element("p", { class: "help" }, `${name}: ${described.description ?? ""} ${Form.range(item)}`);
     input.setAttribute("aria-describedby", problem.id);
-    const node = element("div", { class: "key", "data-key": name }, element("label", { for: id, title: described.description }, Form.label(last, described)),
+    const node = element("div", { class: described.maxLength > 64 ? "key wide" : "key", "data-key": name }, element("label", { for: id, title: described.description }, Form.label(last, described)),
       input, remove, from, problem, help);
     const row = { name, described, node, input, remove, from, problem, shown: "" };
     input.addEventListener("change", () => this.edited(row));

@@ -15,7 +15,7 @@ class Runs {
       recovery: [["--mass", "Mass without parachutes [kg]", ""], ["--apogee", "Apogee above the ground [m]", "300"], ["--drogue", "Drogue, which opens at apogee", "", "case"], ["--main-height", "Height at which the main opens [m]", ""], ["--speed", "Horizontal airspeed at apogee [m/s]", ""], ["--delay", "Time from apogee to the first opening [s]", ""], ["--ground", "Ground above sea level [m]", ""], ["--wind", "Wind [m/s]", ""], ["--bay-diameter", "Diameter of the parachute bay [m]", ""], ["--steady", ...run("Drag area of the main")], ["--drogue-steady", ...run("Drag area of the drogue")]],
       size: [["--mass", "Payload mass [kg]", "2.4"], ["--descent-rate", "Descent rate [m/s]", "5"], ["--family", "Family", "flat-circular"], ["--height", "Height above sea level [m]", ""]],
     };
-    const texts = { steady: "Steady flow", inflate: "Inflation", fly: "Free flight", sweep: "Sweep", load: "Opening load", stability: "Stability", recovery: "Recovery from apogee", size: "Size and verify" };
+    const texts = { steady: "Steady flow", inflate: "Inflation", fly: "Free flight", sweep: "Sweep", load: "Opening load", stability: "Stability", recovery: "Recovery", size: "Size and verify" };
     this.command = element("select", { "data-control": "command", onchange: () => this.fields() }, Object.entries(texts).map(([value, text]) => element("option", { value }, text)));
     this.name = element("input", { spellcheck: false, "data-control": "name" });
     this.inputs = element("div", { class: "fields" });
@@ -47,7 +47,7 @@ class Runs {
       if (kind === "yes") return element("label", {}, text, element("input", { type: "checkbox", "data-option": option }));
       if (kind === "case") return element("label", {}, text, element("select", { "data-option": option }, element("option", { value: "" }, "none"), (this.design.folderFiles ?? []).map((name) => element("option", { value: name }, name))));
       if (kind === "run") return element("label", {}, text, element("select", { "data-option": option }, element("option", { value: "" }, "none"), this.finishedRuns().map((name) => element("option", { value: name }, name))));
-      return element("label", {}, text, element("input", { "data-option": option, value, spellcheck: false }));
+      return element("label", {}, text, element("input", { "data-option": option, value, spellcheck: false, placeholder: "default" }));
     }));
     this.propose();
   }

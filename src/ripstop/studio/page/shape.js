@@ -41,6 +41,13 @@ class ShapePane {
     }
   }
 
+  /** Of a case with problems: the last shape. */
+  keep() {
+    ++this.number;
+    this.timing.textContent = this.section ? "The case has problems. This is the shape of the last valid case." : "The case has problems, so that it has no shape.";
+    this.timing.dataset.state = "kept";
+  }
+
   tell(answer, begin, own, file) {
     const r = answer.result, passing = !answer.done && !r.converged;
     const state = passing ? ` · not in equilibrium yet (residual ${Numbers.shown(100 * r.residual, 2)} %)` : r.converged ? "" : " · not in equilibrium";
