@@ -8,6 +8,7 @@ import time
 import urllib.parse
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+LIMIT = 600  # [s] of a request or an end, on a machine of any speed
 
 
 class Studio:
@@ -33,7 +34,7 @@ class Studio:
     def request(self, method, path, body=None, headers=None, without=()):
         """Status, headers and bytes; `headers` replace those of the page, `without` names some to leave out."""
         all_headers = {"Host": f"127.0.0.1:{self.port}", "X-Ripstop-Token": self.token, **({"Content-Type": "application/json"} if method == "POST" else {}), **(headers or {})}
-        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=60)
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=LIMIT)
         connection.putrequest(method, path, skip_host=True)
         data = body if isinstance(body, bytes) else None if body is None else json.dumps(body).encode()
         if data is not None and "Content-Length" not in all_headers:
@@ -69,6 +70,6 @@ class Studio:
 
     def end(self, number=signal.SIGINT):
         self.process.send_signal(number)
-        code = self.process.wait(20)
+        code = self.process.wait(LIMIT)
         self.process.stdout.close()
         return code
