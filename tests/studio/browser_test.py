@@ -375,7 +375,7 @@ class StudioPage(unittest.TestCase):
         self.open()
         self.until("!document.getElementById('notice').hidden")
         self.assertEqual(self.browser.evaluate("document.querySelector('#key-title').value"), hostile)
-        self.assertEqual(self.browser.evaluate("[window.taken ?? 0, document.querySelectorAll('#notice i, #notice b, main img').length]"), [0, 0])
+        self.assertEqual(self.browser.evaluate("[window.taken ?? 0, document.querySelectorAll('#notice i, #notice b, main img:not(.drawing)').length]"), [0, 0])
 
 
 if __name__ == "__main__":

@@ -302,14 +302,14 @@ class Server(unittest.TestCase):
     def test_runs_are_those_of_the_command_line(self):
         s = self.studio
         (self.folder / "a.toml").write_text(CASE + '\n[coupling]\nload = "uniform"\nthreads = 1\nmax_iterations = 2\n')
-        for name, command, options in (("a-load", "load", {"--mass": 2.4, "--speed": "20"}), ("a-recovery", "recovery", {"--mass": 2.4, "--apogee": 300, "--drogue": "a.toml"}), ("a-steady", "steady", {"--grid": "20,20,30"}), ("a-sweep", "sweep", {"--speeds": "20", "--grid": "20,20,30", "--jobs": 1})):
+        for name, command, options in (("a-load", "load", {"--mass": 2.4, "--speed": "20"}), ("a-recovery", "recovery", {"--mass": 2.4, "--apogee": 300, "--main-height": 100, "--drogue": "a.toml"}), ("a-steady", "steady", {"--grid": "20,20,30"}), ("a-sweep", "sweep", {"--speeds": "20", "--grid": "20,20,30", "--jobs": 1})):
             self.assertEqual(s.post("/api/jobs/start", name=name, command=command, case="a.toml", options=options)[0], 200)
         for name in ("a-load", "a-recovery"):
             self.assertEqual(self.wait_for(name, ["finished", "failed"]), "finished", s.get("/api/log", name=name))
         ends = ["finished", "not converged"]  # after two iterations
         for name in ("a-steady", "a-sweep"):
             self.assertIn(self.wait_for(name, [*ends, "failed"]), ends, s.get("/api/log", name=name))
-        arguments = {"load": ["--mass", "2.4", "--speed", "20"], "recovery": ["--mass", "2.4", "--apogee", "300", "--drogue", str(self.folder / "a.toml")], "steady": ["--grid", "20,20,30"]}
+        arguments = {"load": ["--mass", "2.4", "--speed", "20"], "recovery": ["--mass", "2.4", "--apogee", "300", "--main-height", "100", "--drogue", str(self.folder / "a.toml")], "steady": ["--grid", "20,20,30"]}
         for name, more in arguments.items():
             subprocess.run([PROGRAM, name, str(self.folder / "a.toml"), *more, "--out", str(self.place / name)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
             own, printed = (json.loads((folder / "result.json").read_text()) for folder in (self.folder / f"runs/a-{name}", self.place / name))
