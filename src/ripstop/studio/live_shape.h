@@ -1,5 +1,5 @@
-// The shape of a design that changes: a first answer after a fixed time, the equilibrium when it is reached, and then that
-// with the nodes of the case.
+// The shape of a design that changes: a first answer after a fixed time, the equilibrium when it is reached, and then
+// that with the nodes of the case.
 #pragma once
 
 #include <condition_variable>
@@ -29,9 +29,9 @@ class LiveShape {
   /// Number of the new computation. `stages`: the case with few nodes, then as it is; one or both. `pressure` [Pa];
   /// absent: the dynamic pressure of the case.
   unsigned begin(std::vector<Settings> stages, std::optional<double> pressure);
-  /// JSON of a computation: {"number", "done", "result", "shape"}. The next equilibrium, or after `wait_s` [s] the shape
-  /// that the relaxation has reached; the later stage has {"number", "done", "refining"} instead, its number of nodes.
-  /// {"superseded": true} once another computation has begun. Throws Error of the computation.
+  /// JSON of a computation: {"number", "done", "result", "shape"}. The next equilibrium, or after `wait_s` [s] the
+  /// shape that the relaxation has reached; the later stage has {"number", "done", "refining"} instead, its number of
+  /// nodes. {"superseded": true} once another computation has begun. Throws Error of the computation.
   std::string answer(unsigned number, double wait_s);
 
  private:
