@@ -60,7 +60,7 @@ class Form {
       if (group.name === "parachute") rows.unshift(Form.drawing(this.drawings, group.keys.find(([key]) => key === "parachute.type")?.[1].const));
       const end = group.removable ? element("p", { class: "row" }, element("button", { type: "button", onclick: () => this.change({ [group.name]: null }) }, `Remove [${group.name}]`)) : null;
       const name = group.added ? `new ${group.name}` : group.name;
-      const node = element("details", { open: before.get(name) ?? (!group.added && (group.removable || open.includes(group.name))), "data-group": name }, element("summary", { title: group.about }, title, count), rows, end);
+      const node = element("details", { open: before.get(name) ?? (!group.added && (group.removable ? !group.name.endsWith("]") : open.includes(group.name))), "data-group": name }, element("summary", { title: group.about }, title, count), rows, end);
       return { node, name, count, about: group.about ?? "", names: group.keys.map(([key]) => key) };
     });
     this.body.replaceChildren(...this.sections.map((section) => section.node));
