@@ -49,7 +49,7 @@ TEST(LiveShape, IsThatOfTheCommandLineAfterAnyChanges) {
 
 TEST(LiveShape, IsRefinedToThatOfTheCommandLine) {
   LiveShape shape(0);
-  const Settings coarse = canopy(1, 20, 300), whole = canopy(1, 20, 500);
+  const Settings coarse = canopy(1, 20, 500), whole = canopy(1, 20, 800);
   const unsigned number = shape.begin({coarse, whole}, {});
   const Json first = Json::parse(shape.answer(number, long_enough));
   EXPECT_FALSE(first.at("done"));
@@ -61,14 +61,14 @@ TEST(LiveShape, IsRefinedToThatOfTheCommandLine) {
 
 TEST(LiveShape, WaitsForAnIdleTimeBeforeItRefines) {
   LiveShape shape(long_enough);
-  const unsigned number = shape.begin({canopy(1, 20, 300), canopy(1, 20, 500)}, {});
+  const unsigned number = shape.begin({canopy(1, 20, 500), canopy(1, 20, 800)}, {});
   EXPECT_TRUE(Json::parse(shape.answer(number, long_enough)).at("result").at("converged"));
   for (int i = 0; i < 2; ++i) {
     const Json later = Json::parse(shape.answer(number, 0));
-    EXPECT_EQ(later.at("refining"), 500);
+    EXPECT_EQ(later.at("refining"), 800);
     EXPECT_FALSE(later.at("done"));
   }
-  EXPECT_TRUE(finished(shape, canopy(1, 24, 300)).at("done"));  // a new change does not wait
+  EXPECT_TRUE(finished(shape, canopy(1, 24, 500)).at("done"));  // a new change does not wait
 }
 
 TEST(LiveShape, ShowsTheShapeOfTheMomentAndEndsForTheNextDesign) {
