@@ -34,7 +34,7 @@ ARCH_CHECK := gtest benchmark python pybind11 python-numpy python-jsonschema
 
 export PATH := /usr/bin:$(PATH)
 
-.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-openings validate-filling validate-flights validate-stability judge torture test-sizes test-tutorials test-drawings test-slurm test-hosts test-debian12 test-debian13 scaling docs reference report-libraries format format-check install-build install wheel tarball test-portable container package clean
+.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-openings validate-filling validate-flights validate-stability judge torture test-sizes test-studio test-tutorials test-drawings test-slurm test-hosts test-debian12 test-debian13 scaling docs reference report-libraries format format-check install-build install wheel tarball test-portable container package clean
 
 help:  ## This list
 	@grep -hE '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -132,7 +132,6 @@ bench: check-deps  ## Run the benchmarks, some four hours; their figures are in 
 	@build-check/bench/bench_cloth
 	@build-check/bench/bench_relaxation | tee docs/tables/relaxation.md
 	@build-check/bench/bench_relaxation --ratio --pressures 80 stratos-iv flat-circular
-	@/usr/bin/python3 bench/live_shape.py build-check/bin/ripstop | tee docs/tables/live-shape.md
 	@build-check/bench/bench_inflation
 	@build-check/bench/bench_flow --openfoam --large
 	@build-check/bench/bench_flow --in-time
@@ -182,6 +181,10 @@ torture: build  ## Tiny runs with kills, failing writes, damaged files and wrong
 
 test-sizes: build  ## ripstop size for 1,000 payloads, rates and heights, into docs/tables: a minute
 	@/usr/bin/python3 validation/reliability/size_grid.py --ripstop build/bin/ripstop
+
+test-studio: build  ## Times and memory of Studio over an hour of changes of all families, into docs/tables: an hour and more
+	@/usr/bin/python3 bench/live_shape.py build/bin/ripstop | tee docs/tables/live-shape.md
+	@/usr/bin/python3 bench/studio_memory.py build/bin/ripstop | tee docs/tables/studio-memory.md
 
 test-tutorials: check-deps  ## Follow every tutorial from its page in a fresh clone, times into docs/tables: some minutes
 	@cmake --preset release > /dev/null

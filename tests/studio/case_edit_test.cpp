@@ -67,6 +67,48 @@ TEST(CaseEdit, RemovesTheLinesOfAKeyWithTheirComment) {
             hand_written + "\n[payload]\n");
 }
 
+const std::string with_tables =
+    "title = \"a\"\n"
+    "\n"
+    "# The rocket.\n"
+    "[body.rocket]\n"
+    "shape = \"sphere\" # nearly\n"
+    "diameter_m = 0.1\n"
+    "\n"
+    "[[measured]]\n"
+    "speed_m_s = 10\n"
+    "\n"
+    "# The second run.\n"
+    "[[measured]]\n"
+    "speed_m_s = 20\n";
+
+TEST(CaseEdit, AddsAndRemovesNamedTables) {
+  const std::string more = with_key(with_tables, "body.tail.shape", "\"box\"");
+  EXPECT_EQ(more, with_tables + "\n[body.tail]\nshape = \"box\"\n");
+  EXPECT_EQ(without_key(more, "body.tail"), with_tables);
+  const std::string less = without_key(with_tables, "body.rocket");
+  EXPECT_EQ(less.find("rocket]"), std::string::npos);
+  EXPECT_NE(less.find("# The rocket.\n\n[[measured]]"), std::string::npos);
+  EXPECT_THROW(without_key(with_tables, "body.tail"), Error);
+  EXPECT_THROW(without_key("hardware = {a = {strands = 2}}\n", "hardware.a"), Error);
+}
+
+TEST(CaseEdit, ChangesAddsAndRemovesMembersOfListsOfTables) {
+  const std::string changed = with_key(with_tables, "measured[1].drag_n", "5");
+  EXPECT_EQ(changed, with_tables + "drag_n = 5\n");
+  EXPECT_NE(
+      with_key(with_tables, "measured[0].drag_n", "5").find("speed_m_s = 10\ndrag_n = 5\n\n# The second"),
+      std::string::npos);
+  const std::string more = with_key(with_tables, "measured[2].speed_m_s", "30");
+  EXPECT_EQ(more, with_tables + "\n[[measured]]\nspeed_m_s = 30\n");
+  EXPECT_EQ(without_key(more, "measured[2]"), with_tables);
+  const auto rest = written_values(without_key(changed, "measured[0]"));
+  EXPECT_EQ(rest.at("measured[0].speed_m_s"), "20");
+  EXPECT_EQ(rest.at("measured[0].drag_n"), "5");
+  EXPECT_THROW(with_key(with_tables, "measured[7].speed_m_s", "30"), Error);
+  EXPECT_THROW(without_key(with_tables, "measured[2]"), Error);
+}
+
 TEST(CaseEdit, RefusesAChangeOfOtherValues) {
   EXPECT_THROW(without_key(hand_written, "flow.core.start_m"), Error);  // shares its line
   EXPECT_THROW(without_key(hand_written, "flow.speed_m_s"), Error);

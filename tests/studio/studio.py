@@ -4,9 +4,11 @@ import json
 import pathlib
 import signal
 import subprocess
+import time
 import urllib.parse
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+LIMIT = 600  # [s] of a request or an end, on a machine of any speed
 
 
 class Studio:
@@ -20,10 +22,19 @@ class Studio:
         parts = urllib.parse.urlsplit(self.address)
         self.port, self.token = parts.port, urllib.parse.parse_qs(parts.query)["token"][0]
 
+    @classmethod
+    def reopened(cls, program, folder):
+        """Of a folder whose server was killed: once the system has ended its processes."""
+        while True:
+            try:
+                return cls(program, folder)
+            except RuntimeError:
+                time.sleep(0.05)
+
     def request(self, method, path, body=None, headers=None, without=()):
         """Status, headers and bytes; `headers` replace those of the page, `without` names some to leave out."""
         all_headers = {"Host": f"127.0.0.1:{self.port}", "X-Ripstop-Token": self.token, **({"Content-Type": "application/json"} if method == "POST" else {}), **(headers or {})}
-        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=60)
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=LIMIT)
         connection.putrequest(method, path, skip_host=True)
         data = body if isinstance(body, bytes) else None if body is None else json.dumps(body).encode()
         if data is not None and "Content-Length" not in all_headers:
@@ -59,6 +70,6 @@ class Studio:
 
     def end(self, number=signal.SIGINT):
         self.process.send_signal(number)
-        code = self.process.wait(20)
+        code = self.process.wait(LIMIT)
         self.process.stdout.close()
         return code

@@ -234,11 +234,9 @@ std::string Actions::size(const std::string& file, const std::string& family, do
 }
 
 std::string Actions::shape(const std::string& view, const std::string& file, const std::string& pressure,
-                           const std::string& nodes) {
+                           int nodes) {
   require_name(view);
   const fs::path path = case_path(file);
-  Overrides overrides;
-  overrides.set.push_back(parse_setting("parachute.mesh.cloth_nodes=" + nodes, "nodes"));
   std::optional<double> given;
   if (!pressure.empty()) {
     const Json number = Json::parse(pressure, nullptr, false);
@@ -246,13 +244,19 @@ std::string Actions::shape(const std::string& view, const std::string& file, con
       throw Error(ExitCode::usage, fmt::format("the pressure {} is not a number", quoted(pressure)));
     given = number.get<double>();
   }
+  std::vector<Settings> stages = {resolve(read_case(path))};
+  if (stages.front().parachute().mesh.cloth_nodes > nodes) {
+    Overrides fewer;
+    fewer.set.push_back(parse_setting(fmt::format("parachute.mesh.cloth_nodes={}", nodes), "nodes"));
+    stages.insert(stages.begin(), resolve(read_case(path, fewer)));
+  }
   const std::shared_ptr<LiveShape> shape = shapes_.of(view);
-  return shape->answer(shape->begin(resolve(read_case(path, overrides)), given), first_answer);
+  return shape->answer(shape->begin(std::move(stages), given), first_answer);
 }
 
-std::string Actions::later_shape(const std::string& view, unsigned number) {
+std::string Actions::later_shape(const std::string& view, int number) {
   require_name(view);
-  return shapes_.of(view)->answer(number, later_answer);
+  return shapes_.of(view)->answer(static_cast<unsigned>(number), later_answer);
 }
 
 std::string Actions::load(const std::string& file, const std::string& mass, const std::string& speed,

@@ -43,11 +43,11 @@ class Actions {
   std::string size(const std::string& file, const std::string& family, double mass, double rate,
                    double height);
 
-  /// Shape of a view under a pressure [Pa], empty: the dynamic pressure of the case. Ends an earlier call of the view.
-  std::string shape(const std::string& view, const std::string& file, const std::string& pressure,
-                    const std::string& nodes);
-  /// Of a shape that was not in equilibrium yet: the same a little later.
-  std::string later_shape(const std::string& view, unsigned number);
+  /// Shape of a view under a pressure [Pa], empty: the dynamic pressure of the case; first with at most `nodes` nodes
+  /// of cloth. Ends an earlier call of the view.
+  std::string shape(const std::string& view, const std::string& file, const std::string& pressure, int nodes);
+  /// Of a shape that was not done yet: the next answer of its computation.
+  std::string later_shape(const std::string& view, int number);
   /// `drag`: the drag coefficient; empty: that of the family.
   std::string load(const std::string& file, const std::string& mass, const std::string& speed,
                    const std::string& drag);

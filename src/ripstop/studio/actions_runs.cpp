@@ -33,6 +33,9 @@ const std::set<std::string>& options_of(const std::string& command) {
       {"load",
        {"--mass", "--speed", "--height", "--reef", "--drag-coefficient", "--steady", "--opening", "--from"}},
       {"stability", {"--angles", "--cells-across", "--speed", "--grid", "--steady"}},
+      {"recovery",
+       {"--mass", "--apogee", "--drogue", "--main-height", "--speed", "--delay", "--ground", "--wind",
+        "--bay-diameter", "--steady", "--drogue-steady"}},
       {"size", {"--mass", "--descent-rate", "--family", "--height"}},
   };
   const auto found = all.find(command);
@@ -42,7 +45,7 @@ const std::set<std::string>& options_of(const std::string& command) {
 }
 
 bool names_a_run(const std::string& option) {
-  return option == "--steady" || option == "--opening" || option == "--from";
+  return option == "--steady" || option == "--drogue-steady" || option == "--opening" || option == "--from";
 }
 
 const char* ending_of(const std::string& format) {
@@ -90,6 +93,7 @@ std::vector<std::string> Actions::arguments_of(const std::string& command, const
       run_path(text);
       text = "runs/" + text;
     }
+    if (option == "--drogue") case_path(text);
     arguments.push_back(option + "=" + text);
   }
   return arguments;

@@ -119,6 +119,20 @@ std::map<std::string, Span> spans_of(const std::string& text, const Document& do
   return spans;
 }
 
+struct ListMember {
+  std::string list;
+  std::optional<std::size_t> index;  // absent: the table is of no list
+};
+
+/// "measured[1]" is the member 1 of "measured".
+ListMember list_member(const std::string& table) {
+  const std::size_t open = table.rfind('[');
+  if (!table.ends_with(']') || open == std::string::npos || table.size() - open > 8) return {table, {}};
+  const std::string digits = table.substr(open + 1, table.size() - open - 2);
+  if (digits.empty() || digits.find_first_not_of("0123456789") != std::string::npos) return {table, {}};
+  return {table.substr(0, open), std::stoul(digits)};
+}
+
 struct Header {
   std::string name;  // "parachute.lines"; of a list of tables with its brackets: "[measured]"
   std::size_t line = 0;
@@ -142,6 +156,16 @@ std::vector<Header> headers_of(const std::string& text, const std::map<std::stri
     headers.push_back({name, line});
   }
   return headers;
+}
+
+/// The header of a table, or of the member "measured[1]" of a list of tables; the number of headers if there is none.
+std::size_t header_of(const std::vector<Header>& headers, const std::string& table) {
+  const ListMember member = list_member(table);
+  const std::string name = member.index ? "[" + member.list + "]" : table;
+  std::size_t left = member.index.value_or(0);
+  for (std::size_t i = 0; i < headers.size(); ++i)
+    if (headers[i].name == name && left-- == 0) return i;
+  return headers.size();
 }
 
 const Node* find_path(const Node& root, const std::string& path) {
@@ -184,8 +208,7 @@ std::string with_new_key(std::string text, const std::string& key, const std::st
     if (at > 0) return text.insert(at, line);
     return text.insert(first, headers.empty() ? line : line + "\n");
   }
-  for (std::size_t i = 0; i < headers.size(); ++i) {
-    if (headers[i].name != table) continue;
+  if (const std::size_t i = header_of(headers, table); i < headers.size()) {
     const std::size_t next = i + 1 < headers.size() ? headers[i + 1].line : text.size();
     const std::size_t begin = headers[i].line;
     return text.insert(end_of_values(text, spans, {begin, next}, line_end(text, begin)), line);
@@ -195,17 +218,14 @@ std::string with_new_key(std::string text, const std::string& key, const std::st
     const std::string member = line.substr(0, line.size() - 1);
     return text.insert(offset_of(text, parent->place) + 1, parent->items.empty() ? member : member + ", ");
   }
-  return text + fmt::format("{}[{}]\n{}", text.empty() ? "" : "\n", table, line);
+  const ListMember member = list_member(table);
+  const std::string name = member.index ? "[" + member.list + "]" : table;
+  return text + fmt::format("{}[{}]\n{}", text.empty() ? "" : "\n", name, line);
 }
 
 /// The change must concern no other value, whatever the layout of the file.
-std::string verified(const std::string& before, std::string after, const std::string& key,
-                     const std::optional<std::string>& literal) {
-  auto expected = written_values(before);
-  if (literal)
-    expected[key] = *literal;
-  else
-    expected.erase(key);
+std::string verified(std::string after, const std::map<std::string, std::string>& expected,
+                     const std::string& key) {
   std::map<std::string, std::string> found;
   try {
     found = written_values(after);
@@ -217,6 +237,41 @@ std::string verified(const std::string& before, std::string after, const std::st
         ExitCode::usage,
         fmt::format("{} cannot be changed in this layout of the file; edit the text of the file", key));
   return after;
+}
+
+/// The values without those of a table; later members of its list follow on.
+std::map<std::string, std::string> without_members(const std::map<std::string, std::string>& values,
+                                                   const std::string& table) {
+  const ListMember member = list_member(table);
+  std::map<std::string, std::string> rest;
+  for (const auto& [name, literal] : values) {
+    if (name.starts_with(table + ".")) continue;
+    const std::size_t close = name.find(']', member.list.size());
+    const ListMember of = member.index && name.starts_with(member.list + "[") && close != std::string::npos
+                              ? list_member(name.substr(0, close + 1))
+                              : ListMember{};
+    if (of.index && *of.index > *member.index)
+      rest[fmt::format("{}[{}]{}", of.list, *of.index - 1, name.substr(close + 1))] = literal;
+    else
+      rest[name] = literal;
+  }
+  return rest;
+}
+
+std::string without_table(const std::string& text, const std::string& table) {
+  const auto spans = spans_of(text, parse_toml(text, "case"));
+  const auto headers = headers_of(text, spans);
+  const std::size_t first = header_of(headers, table);
+  if (first == headers.size()) throw Error(ExitCode::usage, fmt::format("{} is not in the file", table));
+  std::size_t last = first + 1;
+  while (last < headers.size() && headers[last].name.starts_with(table + ".")) ++last;
+  const std::size_t next = last < headers.size() ? headers[last].line : text.size();
+  std::size_t begin = headers[first].line;
+  const std::size_t end = end_of_values(text, spans, {begin, next}, line_end(text, headers[last - 1].line));
+  if (begin >= 2 && text.compare(begin - 2, 2, "\n\n") == 0) --begin;
+  std::string changed = text;
+  changed.erase(begin, end - begin);
+  return verified(std::move(changed), without_members(written_values(text), table), table);
 }
 
 }  // namespace
@@ -236,17 +291,21 @@ std::string with_key(const std::string& text, const std::string& key, const std:
     changed = with_new_key(std::move(changed), key, literal);
   else
     changed.replace(found->second.begin, found->second.end - found->second.begin, literal);
-  return verified(text, std::move(changed), key, literal);
+  auto expected = written_values(text);
+  expected[key] = literal;
+  return verified(std::move(changed), expected, key);
 }
 
 std::string without_key(const std::string& text, const std::string& key) {
   const auto spans = spans_of(text, parse_toml(text, "case"));
   const auto found = spans.find(key);
-  if (found == spans.end()) throw Error(ExitCode::usage, fmt::format("{} is not in the file", key));
+  if (found == spans.end()) return without_table(text, key);
   std::string changed = text;
   const std::size_t begin = line_begin(text, found->second.begin), end = line_end(text, found->second.end);
   changed.erase(begin, end - begin);
-  return verified(text, std::move(changed), key, {});
+  auto expected = written_values(text);
+  expected.erase(key);
+  return verified(std::move(changed), expected, key);
 }
 
 }  // namespace ripstop::inline studio

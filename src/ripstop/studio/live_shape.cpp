@@ -1,10 +1,12 @@
 #include "ripstop/studio/live_shape.h"
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "ripstop/canopy/shape.h"
 #include "ripstop/case/assemble.h"
@@ -12,11 +14,14 @@
 #include "ripstop/output/vtk.h"
 #include "ripstop/report/report.h"
 #include "ripstop/report/shape_view.h"
+#include "ripstop/run/sizing/fabric.h"
 
 namespace ripstop::inline studio {
 namespace {
 
 constexpr std::size_t most_views = 4;
+constexpr int threads =
+    1;  // the others are left to the page and to runs; results do not depend on their number
 
 struct Superseded {};
 
@@ -26,11 +31,16 @@ std::string answer_json(unsigned number, bool done, const std::string& result, c
                      shape_json(shape_of(canopy, lines)));
 }
 
+std::string answer_json(unsigned number, bool done, const FabricSolution& solution) {
+  return answer_json(number, done, to_json(solution.result), fabric_canopy(solution), fabric_lines(solution));
+}
+
 /// Without stresses: a relaxation passes through states of softened cloth.
-std::string passing_json(unsigned number, const CanopyMesh& mesh, double pressure,
+std::string passing_json(unsigned number, const Settings& resolved, std::optional<double> pressure,
                          const RelaxProgress& progress, const std::vector<Vec3>& shape) {
+  const CanopyMesh mesh = parachute_mesh(resolved);
   const nlohmann::ordered_json result = {
-      {"pressure_pa", pressure},
+      {"pressure_pa", fabric_pressure(resolved, pressure)},
       {"projected_diameter_m", canopy_size(mesh, shape).projected_diameter},
       {"nodes", mesh.node_count()},
       {"residual", progress.residual},
@@ -38,15 +48,20 @@ std::string passing_json(unsigned number, const CanopyMesh& mesh, double pressur
   return answer_json(number, false, result.dump(), canopy_surface(mesh, shape), spring_lines(mesh, shape));
 }
 
-bool same_springs(const CanopyMesh& a, const CanopyMesh& b) {
-  return a.node_count() == b.node_count() && a.cell_count() == b.cell_count() && a.fixed == b.fixed &&
-         std::equal(a.springs.begin(), a.springs.end(), b.springs.begin(), b.springs.end(),
-                    [](const Spring& s, const Spring& t) { return s.a == t.a && s.b == t.b; });
+/// glibc keeps freed memory for each of its threads: some megabytes more after each shape, without end.
+void return_freed_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
+std::string refining_json(unsigned number, int nodes) {
+  return fmt::format("{{\"number\": {}, \"done\": false, \"refining\": {}}}", number, nodes);
 }
 
 }  // namespace
 
-LiveShape::LiveShape() : worker_([this] { work(); }) {}
+LiveShape::LiveShape(double idle_s) : idle_s_(idle_s), worker_([this] { work(); }) {}
 
 LiveShape::~LiveShape() {
   {
@@ -57,9 +72,9 @@ LiveShape::~LiveShape() {
   worker_.join();
 }
 
-unsigned LiveShape::begin(Settings resolved, std::optional<double> pressure) {
+unsigned LiveShape::begin(std::vector<Settings> stages, std::optional<double> pressure) {
   const std::lock_guard lock(mutex_);
-  next_ = Request{std::move(resolved), pressure};
+  next_ = Request{std::move(stages), pressure};
   wanted_ = false;
   changed_.notify_all();
   return ++newest_;
@@ -68,15 +83,16 @@ unsigned LiveShape::begin(Settings resolved, std::optional<double> pressure) {
 std::string LiveShape::answer(unsigned number, double wait_s) {
   std::unique_lock lock(mutex_);
   const auto superseded = [&] { return closing_ || number != newest_; };
-  const auto done = [&] { return superseded() || (answer_.number == number && answer_.done); };
-  if (!changed_.wait_for(lock, std::chrono::duration<double>(wait_s), done)) {
-    answer_ = {};  // a shape of the moment is made on request
+  const auto ready = [&] { return superseded() || answer_.number == number; };
+  if (!changed_.wait_for(lock, std::chrono::duration<double>(wait_s), ready)) {
     wanted_ = true;
-    changed_.wait(lock, [&] { return superseded() || answer_.number == number; });
+    changed_.notify_all();
+    changed_.wait(lock, ready);
   }
   if (superseded()) return "{\"superseded\": true}";
   if (answer_.error) throw Error(answer_.error->first, answer_.error->second);
-  return answer_.json;
+  if (answer_.done) return answer_.json;
+  return std::exchange(answer_, {}).json;  // the next answer is a later one
 }
 
 void LiveShape::publish(Answer answer) {
@@ -86,10 +102,10 @@ void LiveShape::publish(Answer answer) {
   changed_.notify_all();
 }
 
-bool LiveShape::ends(unsigned number, bool& wanted) {
+bool LiveShape::wanted(unsigned number) {
   const std::lock_guard lock(mutex_);
-  wanted = wanted_;
-  return closing_ || number != newest_;
+  if (closing_ || number != newest_) throw Superseded();
+  return wanted_;
 }
 
 void LiveShape::work() {
@@ -106,57 +122,50 @@ void LiveShape::work() {
     }
     try {
       compute(*request, number);
-    } catch (const Superseded&) {
-      continue;
+    } catch (const Superseded&) {  // the next request follows
     } catch (const Error& error) {
       publish({number, true, "", std::pair{error.code(), error.what()}});
     } catch (const std::exception& error) {
       publish({number, true, "", std::pair{ExitCode::resources, std::string(error.what())}});
     }
-  }
-}
-
-/// The last shape in proportion to the new size, held where the new canopy is.
-std::vector<Vec3> LiveShape::start_of(const CanopyMesh& mesh, double diameter) const {
-  if (!last_ || mesh.fixed.empty() || !same_springs(last_->mesh, mesh)) return {};
-  std::vector<Vec3> start = last_->shape;
-  const double scale = diameter / last_diameter_;
-  const Vec3 from = start[mesh.fixed.front()], to = mesh.start[mesh.fixed.front()];
-  for (Vec3& x : start) x = to + scale * (x - from);
-  for (const int node : mesh.fixed) start[node] = mesh.start[node];
-  return start;
-}
-
-/// A large change of the design may diverge from the last shape.
-FabricSolution LiveShape::solved(const Request& request, const std::vector<Vec3>& start,
-                                 const RelaxWatch& watch) {
-  try {
-    return run_fabric_from(request.resolved, request.pressure, start, watch);
-  } catch (const Error& error) {
-    if (start.empty() || error.code() != ExitCode::diverged) throw;
-    return run_fabric_from(request.resolved, request.pressure, {}, watch);
+    return_freed_memory();
   }
 }
 
 void LiveShape::compute(const Request& request, unsigned number) {
-  const CanopyMesh mesh = parachute_mesh(request.resolved);
-  const double diameter = nominal_diameter(request.resolved.parachute());
-  const double speed = request.resolved.flow().speed_m_s;
-  const double pressure =
-      request.pressure.value_or(0.5 * request.resolved.flow().density_kg_m3 * speed * speed);
+  const Settings& first = request.stages.front();
+  const bool whole = request.stages.size() == 1;
   const RelaxWatch watch = [&](const RelaxProgress& progress, const auto& positions) {
-    bool wanted = false;
-    if (ends(number, wanted)) throw Superseded();
-    if (wanted) publish({number, false, passing_json(number, mesh, pressure, progress, positions()), {}});
+    if (wanted(number))
+      publish({number, false, passing_json(number, first, request.pressure, progress, positions()), {}});
   };
-  FabricSolution solution = solved(request, start_of(mesh, diameter), watch);
-  publish(
-      {number,
-       true,
-       answer_json(number, true, to_json(solution.result), fabric_canopy(solution), fabric_lines(solution)),
-       {}});
-  last_ = std::move(solution);
-  last_diameter_ = diameter;
+  const FabricSolution solution = run_watched_fabric(first, request.pressure, threads, watch);
+  publish({number, whole, answer_json(number, whole, solution), {}});
+  if (!whole) refine(request, number);
+}
+
+void LiveShape::refine(const Request& request, unsigned number) {
+  const Settings& last = request.stages.back();
+  const auto say = [&] {
+    if (wanted(number))
+      publish({number, false, refining_json(number, last.parachute().mesh.cloth_nodes), {}});
+  };
+  rest(number, say);
+  const FabricSolution solution =
+      run_watched_fabric(last, request.pressure, threads, [&](const RelaxProgress&, const auto&) { say(); });
+  publish({number, true, answer_json(number, true, solution), {}});
+}
+
+template <class Work>
+void LiveShape::rest(unsigned number, const Work& work) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(idle_s_);
+  for (bool over = false; !over;) {
+    {
+      std::unique_lock lock(mutex_);
+      over = !changed_.wait_until(lock, end, [&] { return closing_ || wanted_ || number != newest_; });
+    }
+    work();
+  }
 }
 
 std::shared_ptr<LiveShape> LiveShapes::of(const std::string& view) {

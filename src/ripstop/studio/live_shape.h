@@ -1,4 +1,5 @@
-// The shape of a design that changes: a first answer after a fixed time, the equilibrium when it is reached.
+// The shape of a design that changes: a first answer after a fixed time, the equilibrium when it is reached, and then
+// that with the nodes of the case.
 #pragma once
 
 #include <condition_variable>
@@ -12,28 +13,30 @@
 #include <vector>
 
 #include "ripstop/case/settings.h"
-#include "ripstop/run/sizing/fabric.h"
 
 namespace ripstop::inline studio {
 
-/// Computes the shape under a uniform pressure (run_fabric_from) in a thread of its own, from the last shape of a canopy
-/// with the same nodes and springs. One computation at a time: a new one ends that before it.
+/// Computes the shape under a uniform pressure as `ripstop fabric` does, in one thread of its own. One computation at a
+/// time: a new one ends that before it.
 class LiveShape {
  public:
-  LiveShape();
+  /// `idle_s`: time without a new computation before the second stage begins [s].
+  explicit LiveShape(double idle_s = 1);
   ~LiveShape();
   LiveShape(const LiveShape&) = delete;
   LiveShape& operator=(const LiveShape&) = delete;
 
-  /// Number of the new computation. `pressure` [Pa]; absent: the dynamic pressure of the case.
-  unsigned begin(Settings resolved, std::optional<double> pressure);
-  /// JSON of a computation: {"number", "done", "result", "shape"}. The equilibrium, or after `wait_s` [s] the shape that
-  /// the relaxation has reached; {"superseded": true} once another one has begun. Throws Error of the computation.
+  /// Number of the new computation. `stages`: the case with few nodes, then as it is; one or both. `pressure` [Pa];
+  /// absent: the dynamic pressure of the case.
+  unsigned begin(std::vector<Settings> stages, std::optional<double> pressure);
+  /// JSON of a computation: {"number", "done", "result", "shape"}. The next equilibrium, or after `wait_s` [s] the
+  /// shape that the relaxation has reached; the later stage has {"number", "done", "refining"} instead, its number of
+  /// nodes. {"superseded": true} once another computation has begun. Throws Error of the computation.
   std::string answer(unsigned number, double wait_s);
 
  private:
   struct Request {
-    Settings resolved;
+    std::vector<Settings> stages;
     std::optional<double> pressure;
   };
   struct Answer {
@@ -44,22 +47,21 @@ class LiveShape {
   };
   void work();
   void compute(const Request& request, unsigned number);
+  void refine(const Request& request, unsigned number);
   void publish(Answer answer);
-  /// Whether the computation is to end; `wanted` becomes whether its shape of the moment is waited for.
-  bool ends(unsigned number, bool& wanted);
-  static FabricSolution solved(const Request& request, const std::vector<Vec3>& start,
-                               const RelaxWatch& watch);
-  std::vector<Vec3> start_of(const CanopyMesh& mesh, double diameter) const;
+  /// Whether the shape of the moment is waited for. Throws once the computation is to end.
+  bool wanted(unsigned number);
+  /// Until `idle_s` have passed, with `work` done whenever an answer is waited for.
+  template <class Work>
+  void rest(unsigned number, const Work& work);
 
+  double idle_s_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::optional<Request> next_;
   unsigned newest_ = 0;
   bool wanted_ = false, closing_ = false;
   Answer answer_;
-  // Of the worker alone: the last equilibrium, and its nominal diameter [m].
-  std::optional<FabricSolution> last_;
-  double last_diameter_ = 0;
   std::thread worker_;
 };
 

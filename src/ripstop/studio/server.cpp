@@ -57,6 +57,13 @@ std::string parameter(const Request& request, const char* name) {
   return request.get_param_value(name);
 }
 
+int whole_number(const Request& request, const char* name) {
+  const std::string text = parameter(request, name);
+  if (text.empty() || text.size() > 9 || text.find_first_not_of("0123456789") != std::string::npos)
+    throw Error(ExitCode::usage, fmt::format("{} is not a whole number of at most 9 digits", name));
+  return std::stoi(text);
+}
+
 struct Body {
   Json json;
   std::string text(const char* name) const {
@@ -185,6 +192,7 @@ void StudioServer::Parts::add_pages() {
 void StudioServer::Parts::add_reading() {
   get("/api/folder", [this](const Request&) { return actions.folder(); });
   get("/api/schema", [](const Request&) { return case_schema(); });
+  get("/api/drawings", [](const Request&) { return studio_drawings(); });
   get("/api/case", [this](const Request& r) { return actions.read(parameter(r, "file")); });
   get("/api/pattern", [this](const Request& r) { return actions.pattern(parameter(r, "file")); });
   get("/api/load", [this](const Request& r) {
@@ -193,13 +201,10 @@ void StudioServer::Parts::add_reading() {
   });
   get("/api/shape", [this](const Request& r) {
     return actions.shape(parameter(r, "view"), parameter(r, "file"), r.get_param_value("pressure"),
-                         parameter(r, "nodes"));
+                         whole_number(r, "nodes"));
   });
   get("/api/shape/later", [this](const Request& r) {
-    const std::string number = parameter(r, "number");
-    if (number.empty() || number.size() > 9 || number.find_first_not_of("0123456789") != std::string::npos)
-      throw Error(ExitCode::usage, "the number of a shape is a whole number");
-    return actions.later_shape(parameter(r, "view"), static_cast<unsigned>(std::stoul(number)));
+    return actions.later_shape(parameter(r, "view"), whole_number(r, "number"));
   });
 }
 

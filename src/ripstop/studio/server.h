@@ -36,4 +36,7 @@ class StudioServer {
 /// The page with its scripts; only scripts with the nonce run.
 std::string studio_page(const std::string& nonce);
 
+/// JSON {"types": {type: SVG}, "families": {name of an example: type}}.
+std::string studio_drawings();
+
 }  // namespace ripstop::inline studio

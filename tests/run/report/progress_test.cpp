@@ -26,6 +26,17 @@ TEST(RunProgress, HasThePlotsOfTheTableThatARunExtends) {
   EXPECT_FALSE(progress.shape);
 }
 
+TEST(RunProgress, HasThePlotsOfATrajectory) {
+  const TemporaryFolder folder("progress");
+  write_file(folder.path / "trajectory.csv", "time_s,height_m,speed_m_s,force_n\n0,500,20,0\n1,490,15,80\n");
+  const RunProgress progress = progress_in(folder.path);
+  ASSERT_EQ(progress.plots.size(), 3U);
+  EXPECT_EQ(progress.plots[0].id, "load");
+  EXPECT_EQ(progress.plots[0].series[0].y, (std::vector<double>{0, 80}));
+  EXPECT_EQ(progress.plots[2].id, "height");
+  EXPECT_EQ(progress.plots[2].series[0].y, (std::vector<double>{500, 490}));
+}
+
 TEST(RunProgress, LeavesOutATableThatIsBeingWritten) {
   const TemporaryFolder folder("progress");
   write_file(folder.path / "iterations.csv", "iteration,drag_n,omega\n1,10,0.5\n2,1");

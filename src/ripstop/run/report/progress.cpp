@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "ripstop/core/error.h"
+#include "ripstop/output/csv.h"
 #include "ripstop/run/report/report_flight.h"
 #include "ripstop/run/report/report_plots.h"
 #include "ripstop/run/report/shape_files.h"
@@ -16,8 +17,11 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The table that each kind of run extends.
-constexpr std::array<std::pair<const char*, const char*>, 3> growing_tables = {
-    {{"path.csv", "flight"}, {"balance.csv", "opening"}, {"iterations.csv", "steady"}}};
+constexpr std::array<std::pair<const char*, const char*>, 4> growing_tables = {
+    {{"path.csv", "flight"},
+     {"balance.csv", "opening"},
+     {"iterations.csv", "steady"},
+     {"trajectory.csv", "trajectory"}}};
 
 struct RunningPart {
   fs::path folder;
@@ -34,8 +38,24 @@ std::optional<RunningPart> running_part(const fs::path& folder) {
   return {};
 }
 
+/// Of `ripstop load` and `ripstop recovery`.
+std::vector<ReportPlot> trajectory_plots(const fs::path& folder) {
+  const CsvTable table = read_csv(folder / "trajectory.csv");
+  std::vector<ReportPlot> plots;
+  const auto add = [&](const char* id, const char* title, const char* unit, const char* column) {
+    ReportPlot plot{id, title, {"time", "s"}, {title, unit}, {}, false, false};
+    plot.series.push_back(thinned({title, table.column("time_s"), table.column(column)}));
+    plots.push_back(std::move(plot));
+  };
+  add("load", "load on the riser", "N", "force_n");
+  add("speed", "speed", "m/s", "speed_m_s");
+  add("height", "height above the ground", "m", "height_m");
+  return plots;
+}
+
 std::vector<ReportPlot> plots_of_part(const RunningPart& part) {
   if (part.kind == "flight") return flight_plots(part.folder);
+  if (part.kind == "trajectory") return trajectory_plots(part.folder);
   ReportRun run;
   run.kind = part.kind;
   return plots_of(run, part.folder);

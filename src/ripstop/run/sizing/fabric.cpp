@@ -49,21 +49,25 @@ std::string to_json(const FabricResult& result) {
   return json_text(result);
 }
 
+double fabric_pressure(const Settings& resolved, std::optional<double> given) {
+  if (given) require_within("pressure (Pa)", *given, 1e-9, highest_pressure);
+  const double speed = resolved.flow().speed_m_s;
+  return given.value_or(0.5 * resolved.flow().density_kg_m3 * speed * speed);
+}
+
 FabricSolution run_fabric(const Settings& resolved, std::optional<double> pressure,
                           const std::function<void(const RelaxProgress&)>& report) {
   RelaxWatch watch;
   if (report) watch = [&](const RelaxProgress& progress, const auto&) { report(progress); };
-  return run_fabric_from(resolved, pressure, {}, watch);
+  return run_watched_fabric(resolved, pressure, resolved.coupling().threads, watch);
 }
 
-FabricSolution run_fabric_from(const Settings& resolved, std::optional<double> pressure,
-                               const std::vector<Vec3>& start, const RelaxWatch& watch) {
-  if (pressure) require_within("pressure (Pa)", *pressure, 1e-9, highest_pressure);
+FabricSolution run_watched_fabric(const Settings& resolved, std::optional<double> pressure, int threads,
+                                  const RelaxWatch& watch) {
   FabricSolution solution;
   auto& [r, mesh, shape, stress, tensions] = solution;
-  const double speed = resolved.flow().speed_m_s;
   r.title = resolved.title();
-  r.pressure = pressure.value_or(0.5 * resolved.flow().density_kg_m3 * speed * speed);
+  r.pressure = fabric_pressure(resolved, pressure);
   r.inputs_hash = inputs_hash(resolved, fmt::format("fabric under {} Pa", r.pressure));
   r.tolerance = resolved.coupling().cloth_tolerance;
   mesh = parachute_mesh(resolved);
@@ -71,11 +75,10 @@ FabricSolution run_fabric_from(const Settings& resolved, std::optional<double> p
   cloth_options.linear = resolved.coupling().linear;
   const ClothPtr cloth = make_cloth(mesh, cloth_options);
   ClothState state = start_state(*cloth);
-  if (!start.empty()) set_positions(state, *cloth, start);
   const Loads loads{std::vector<double>(mesh.cell_count(), r.pressure), {}};
   RelaxOptions relax_options;
   relax_options.tolerance = r.tolerance;
-  ThreadTeam team(resolved.coupling().threads);
+  ThreadTeam team(threads);
   const auto begin = std::chrono::steady_clock::now();
   const RelaxResult relaxed = relaxed_under(
       resolved, r.pressure, [&] { return watched_relax(state, *cloth, loads, relax_options, team, watch); });

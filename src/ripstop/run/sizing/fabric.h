@@ -72,14 +72,16 @@ struct FabricSolution {
   std::vector<double> tensions;    // of every irregular spring [N]
 };
 
-/// Equilibrium under `pressure` [Pa]; absent: the case's dynamic pressure. Convergence is not promised.
+/// `given` [Pa]; absent: the case's dynamic pressure.
+double fabric_pressure(const Settings& resolved, std::optional<double> given);
+
+/// Equilibrium under that pressure. Convergence is not promised.
 FabricSolution run_fabric(const Settings& resolved, std::optional<double> pressure,
                           const std::function<void(const RelaxProgress&)>& report = {});
 
-/// The same from other positions of its nodes than those of the mesh; the path to an equilibrium, not its accuracy,
-/// depends on them.
-FabricSolution run_fabric_from(const Settings& resolved, std::optional<double> pressure,
-                               const std::vector<Vec3>& start, const RelaxWatch& watch);
+/// The same with the shape of the moment, by `threads` threads; 0: one per core.
+FabricSolution run_watched_fabric(const Settings& resolved, std::optional<double> pressure, int threads,
+                                  const RelaxWatch& watch);
 
 /// Cloth with its stresses, and lines with their tension.
 VtkSurface fabric_canopy(const FabricSolution& solution);

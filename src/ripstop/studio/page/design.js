@@ -2,13 +2,13 @@
 "use strict";
 
 class Design {
-  constructor(schema, notice, state) {
+  constructor(schema, drawings, notice, state) {
     Object.assign(this, { notice, state });
     this.file = null;
     this.data = null;  // of the file, as the server read it
     this.history = new Map();  // file -> {undo: [text], redo: [text]}
     this.busy = Promise.resolve();
-    this.form = new Form(schema, (key, value) => this.change(key, value));
+    this.form = new Form(schema, drawings, (changes) => this.changeAll(changes));
     const page = `page${Math.random().toString(36).slice(2)}`;
     this.shape = new ShapePane(`${page}-a`);
     this.other = new ShapePane(`${page}-b`);
@@ -24,12 +24,13 @@ class Design {
     this.speed = this.asked("speed", "20");
     this.drag = this.asked("drag-coefficient", "");
     this.drag.placeholder = "of the family";
+    this.stale = element("p", { class: "muted", hidden: true, "data-part": "stale" }, "The case has problems. These numbers are those of the last valid case.");
     this.facts = element("div", { "data-part": "facts" });
     this.loads = element("div", { "data-part": "loads" });
     this.node = element("div", { class: "view design", id: "view-design" }, this.form.node,
       element("div", { class: "middle" },
         element("div", { class: "above" }, element("label", {}, "Dynamic pressure [Pa] ", this.pressure), element("label", {}, "Compare with ", this.choice)), this.panes),
-      element("aside", { class: "numbers", "aria-label": "Numbers" }, this.facts, element("h2", {}, "Descent and opening"),
+      element("aside", { class: "numbers", "aria-label": "Numbers" }, this.stale, this.facts, element("h2", {}, "Descent and opening"),
         element("div", { class: "fields" }, element("label", {}, "Payload mass [kg]", this.mass), element("label", {}, "Deployment speed [m/s]", this.speed), element("label", {}, "Drag coefficient on S0", this.drag)), this.loads));
     this.pieces = element("div", { class: "pieces" });
     this.bill = element("div", { class: "tables" });
@@ -47,6 +48,7 @@ class Design {
 
   /** The case files of the folder, of which one can be compared with this. */
   files(names) {
+    this.folderFiles = names;
     const others = names.filter((name) => name !== this.file), known = JSON.stringify(others);
     if (this.choice.dataset.names === known) return;
     this.choice.dataset.names = known;
@@ -126,10 +128,13 @@ class Design {
     return this.busy;
   }
 
-  change(key, value) {
+  change(key, value) { return this.changeAll({ [key]: value }); }
+
+  /** `changes`: keys with their JSON values, null to remove one. */
+  changeAll(changes) {
     return this.queued(async () => {
       const before = this.data.text;
-      const data = await Server.post("/api/case/change", { file: this.file, version: this.data.version, changes: { [key]: value } });
+      const data = await Server.post("/api/case/change", { file: this.file, version: this.data.version, changes });
       this.remember(before);
       this.show(data);
       this.draw();
@@ -191,6 +196,7 @@ class Design {
       Object.assign(this, { textShown: this.text.value, textVersion: data.version, textFile: data.file });
     }
     this.notice(rest.length ? rest.join("\n") : "");
+    this.stale.hidden = data.check.valid;
     this.buttons();
     const problems = data.check.problems?.length ?? 0, warnings = data.check.warnings?.length ?? 0;
     this.state(data.check.valid ? (warnings ? `${warnings} warning${warnings > 1 ? "s" : ""}` : "no problems") : `${problems} problem${problems === 1 ? "" : "s"}`);
@@ -230,7 +236,12 @@ class Design {
   }
 
   draw() {
-    if (!this.data.check.valid) return;
+    if (!this.data.check.valid) {
+      this.shape.keep();
+      this.loadNumber = (this.loadNumber ?? 0) + 1;
+      this.patternNumber = (this.patternNumber ?? 0) + 1;
+      return;
+    }
     const check = this.data.check;
     this.pressure.placeholder = Numbers.shown(0.5 * check.density_kg_m3 * check.speed_m_s ** 2, 4);
     this.shape.draw(this.file, this.pressure.value.trim());

@@ -4,7 +4,7 @@
 const Studio = (() => {
   const byId = (id) => document.getElementById(id);
   const views = [["design", "Design"], ["pattern", "Pattern"], ["text", "Text"], ["materials", "Materials"], ["runs", "Runs"], ["report", "Report"]];
-  let design, runs, fitting, frame, shown, folder;
+  let drawings, design, runs, fitting, frame, shown, folder;
 
   function notice(text) {
     const node = byId("notice");
@@ -99,9 +99,12 @@ const Studio = (() => {
     const dialog = byId("create"), from = byId("create-from");
     const mode = () => dialog.querySelectorAll("[data-size]").forEach((node) => { node.hidden = from.value !== "size"; });
     from.addEventListener("change", mode);
+    const family = byId("create-family"), draw = () => byId("create-drawing").replaceChildren(Form.drawing(drawings, drawings.families[family.value]));
+    family.addEventListener("change", draw);
     byId("new").addEventListener("click", () => {
       byId("create-family").replaceChildren(...folder.families.map((name) => element("option", { value: name, selected: name === "flat-circular" }, name)));
       byId("create-problem").textContent = "";
+      draw();
       mode();
       dialog.showModal();
     });
@@ -143,7 +146,8 @@ const Studio = (() => {
   }
 
   async function start() {
-    design = new Design(await Server.get("/api/schema"), notice, (text) => { byId("state").textContent = text; });
+    drawings = await Server.get("/api/drawings");
+    design = new Design(await Server.get("/api/schema"), drawings, notice, (text) => { byId("state").textContent = text; });
     runs = new Runs(design, report, notice);
     fitting = new Fitting(notice);
     frame = element("div", { class: "view frame", id: "view-report" }, element("p", { class: "muted", style: "padding: 1rem" }, "Open a report from the list of runs."));
@@ -169,7 +173,7 @@ const Studio = (() => {
     const last = sessionStorage.getItem("case"), files = folder.cases.map((one) => one.file);
     show(sessionStorage.getItem("view") ?? "design");
     if (files.length) await choose(files.includes(last) ? last : files[0]);
-    else { notice("This folder has no case file yet."); byId("new").click(); }
+    else { notice("This folder has no case file yet. Create one with \"New case\"."); byId("new").click(); }
     document.documentElement.dataset.ready = "yes";
     setTimeout(watch, 1000);
   }

@@ -12,9 +12,10 @@ class Runs {
       sweep: [["--speeds", "Speeds, for example 10,15,20 [m/s]", ""], ["--vary", "Key and values, KEY=V1,V2", ""], ["--grid", "Cells, for example 40,40,60", ""], ["--jobs", "Simultaneous runs", ""]],
       load: [["--mass", "Payload mass [kg]", "2.4"], ["--speed", "Airspeed at line stretch [m/s]", "20"], ["--height", "Height above sea level [m]", ""], ["--reef", "Reefed stage SHARE:SECONDS", ""], ["--steady", ...run("Drag area of a steady run")], ["--opening", ...run("Drag area over distance of an inflation")]],
       stability: [["--angles", "Angles FROM:TO:STEP [°]", "0:40:10"], ["--cells-across", "Cells across the diameter", ""], ["--speed", "Speed [m/s]", ""], ["--steady", ...run("Shape of a steady run")]],
+      recovery: [["--mass", "Mass without parachutes [kg]", ""], ["--apogee", "Apogee above the ground [m]", "500"], ["--drogue", "Drogue, which opens at apogee", "", "case"], ["--main-height", "Height at which the main opens [m]", ""], ["--speed", "Horizontal airspeed at apogee [m/s]", ""], ["--delay", "Time from apogee to the first opening [s]", ""], ["--ground", "Ground above sea level [m]", ""], ["--wind", "Wind [m/s]", ""], ["--bay-diameter", "Diameter of the parachute bay [m]", ""], ["--steady", ...run("Drag area of the main")], ["--drogue-steady", ...run("Drag area of the drogue")]],
       size: [["--mass", "Payload mass [kg]", "2.4"], ["--descent-rate", "Descent rate [m/s]", "5"], ["--family", "Family", "flat-circular"], ["--height", "Height above sea level [m]", ""]],
     };
-    const texts = { steady: "Steady flow", inflate: "Inflation", fly: "Free flight", sweep: "Sweep", load: "Opening load", stability: "Stability", size: "Size and verify" };
+    const texts = { steady: "Steady flow", inflate: "Inflation", fly: "Free flight", sweep: "Sweep", load: "Opening load", stability: "Stability", recovery: "Recovery", size: "Size and verify" };
     this.command = element("select", { "data-control": "command", onchange: () => this.fields() }, Object.entries(texts).map(([value, text]) => element("option", { value }, text)));
     this.name = element("input", { spellcheck: false, "data-control": "name" });
     this.inputs = element("div", { class: "fields" });
@@ -44,8 +45,9 @@ class Runs {
   fields() {
     this.inputs.replaceChildren(...this.options[this.command.value].map(([option, text, value, kind]) => {
       if (kind === "yes") return element("label", {}, text, element("input", { type: "checkbox", "data-option": option }));
+      if (kind === "case") return element("label", {}, text, element("select", { "data-option": option }, element("option", { value: "" }, "none"), (this.design.folderFiles ?? []).map((name) => element("option", { value: name }, name))));
       if (kind === "run") return element("label", {}, text, element("select", { "data-option": option }, element("option", { value: "" }, "none"), this.finishedRuns().map((name) => element("option", { value: name }, name))));
-      return element("label", {}, text, element("input", { "data-option": option, value, spellcheck: false }));
+      return element("label", {}, text, element("input", { "data-option": option, value, spellcheck: false, placeholder: "default" }));
     }));
     this.propose();
   }
@@ -142,7 +144,7 @@ class Runs {
   }
 
   drawPlots(plots) {
-    const wanted = plots.filter((plot) => ["forces", "changes", "history", "load", "size", "angle", "speed", "place"].includes(plot.id)), now = JSON.stringify(wanted);
+    const wanted = plots.filter((plot) => ["forces", "changes", "history", "load", "size", "angle", "speed", "height", "place"].includes(plot.id)), now = JSON.stringify(wanted);
     if (now === this.drawn) return;
     this.drawn = now;
     const figures = wanted.map((plot) => new Plots.Figure(plot, null));

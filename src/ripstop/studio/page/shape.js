@@ -26,10 +26,13 @@ class ShapePane {
           if (own === this.number) this.draw(file, pressure);
           return;
         }
-        await this.show(answer);
-        if (own !== this.number) return;
-        this.tell(answer, begin, own, file);
-        if (first) this.first = performance.now() - begin;
+        if (answer.refining) this.timing.textContent = `${this.told} · computing with ${answer.refining} nodes`;
+        else {
+          await this.show(answer);
+          if (own !== this.number) return;
+          this.tell(answer, begin, own, file);
+          if (first) this.first = performance.now() - begin;
+        }
         if (answer.done) return;
         answer = await Server.get("/api/shape/later", { view: this.view, number: answer.number });
       }
@@ -38,14 +41,21 @@ class ShapePane {
     }
   }
 
+  /** Of a case with problems: the last shape. */
+  keep() {
+    ++this.number;
+    this.timing.textContent = this.section ? "The case has problems. This is the shape of the last valid case." : "The case has problems, so that it has no shape.";
+    this.timing.dataset.state = "kept";
+  }
+
   tell(answer, begin, own, file) {
-    const r = answer.result, state = answer.done ? (r.converged ? "" : " · not in equilibrium") : ` · not in equilibrium yet (residual ${Numbers.shown(100 * r.residual, 2)} %)`;
+    const r = answer.result, passing = !answer.done && !r.converged;
+    const state = passing ? ` · not in equilibrium yet (residual ${Numbers.shown(100 * r.residual, 2)} %)` : r.converged ? "" : " · not in equilibrium";
     const tension = r.max_line_tension_n === undefined ? "" : ` · highest line tension ${Numbers.shown(r.max_line_tension_n, 3)} N`;
     this.result = r;
-    this.timing.textContent = `${r.nodes} nodes under ${Numbers.shown(r.pressure_pa, 4)} Pa in ${((performance.now() - begin) / 1000).toFixed(2)} s · projected diameter ${Numbers.shown(r.projected_diameter_m, 4)} m${tension}${state}`;
-    this.timing.dataset.file = file;
-    this.timing.dataset.done = answer.done;
-    this.timing.dataset.shape = own;
+    this.told = `${r.nodes} nodes under ${Numbers.shown(r.pressure_pa, 4)} Pa in ${((performance.now() - begin) / 1000).toFixed(2)} s · projected diameter ${Numbers.shown(r.projected_diameter_m, 4)} m${tension}`;
+    this.timing.textContent = this.told + state;
+    Object.assign(this.timing.dataset, { file, shape: own, state: answer.done ? "final" : passing ? "passing" : "equilibrium" });
   }
 
   async show(answer) {
