@@ -36,7 +36,7 @@ class Flight:
 
 
 FAMILIES = {"flat-circular": 15, "conical": 12, "elliptical": 6, "extended-skirt": 6, "hemispherical": 12,
-            "quarter-spherical": 6, "cross": 6, "ringslot": 5, "ringsail": 5, "disk-gap-band": 6}  # duration [s]
+            "quarter-spherical": 6, "cross": 6, "annular": 25, "ringslot": 5, "ringsail": 5, "disk-gap-band": 6}  # duration [s]
 F_111 = "parachute.canopy_material=f-111-physical"  # 3 CFM; the cases have MIL-C-7020 type I of 100 CFM
 CLOTHS = {"flat-circular, 3 CFM (F-111)": "flat-circular-f-111", "flat-circular, 30 CFM": "flat-circular-30-cfm",
           "flat-circular, 100 CFM": "flat-circular", "extended-skirt, 3 CFM (F-111)": "extended-skirt-f-111",
@@ -59,7 +59,7 @@ FLIGHTS = {
 # Average angle of oscillation [deg], Knacke's Tables 5-1 and 5-2. Slotted canopies as OSCALC's manual reprints them
 # (mwitty.com/content.php?id=5709156, text by character recognition); all others from memory, not verified in print.
 KNACKE_ANGLE = {"flat-circular": (10, 40), "conical": (10, 30), "extended-skirt": (10, 15), "hemispherical": (10, 15),
-                "cross": (0, 3), "ringslot": (0, 5), "ringsail": (5, 10), "disk-gap-band": (10, 15)}
+                "cross": (0, 3), "annular": (0, 6), "ringslot": (0, 5), "ringsail": (5, 10), "disk-gap-band": (10, 15)}
 STEADY_BELOW, SWINGING_FROM = 6, 10  # mean of the peaks of the angle from the vertical [deg]
 
 
