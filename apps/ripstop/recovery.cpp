@@ -67,7 +67,7 @@ void print_result(const RecoveryResult& r, const fs::path& folder) {
   print_row("path in still air", fmt::format("{:.4g} m along the flight direction at apogee", r.range));
   print_text(
       "Ranges: drag coefficients of both parachutes smaller or larger by their uncertainty.\n"
-      "{} (height.png, speed.png, trajectory.csv, result.json)\n",
+      "{} (report.html, height.png, speed.png, trajectory.csv, result.json)\n",
       folder.string());
 }
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Free flights of ten families and studies of vent, cloth and grid, compared with Knacke's manual.
+"""Free flights of eleven families and studies of vent, cloth and grid, compared with Knacke's manual.
 
     make validate-flights            (or: campaign.py --ripstop build/bin/ripstop --runs runs/flights --jobs 2)
 
@@ -132,7 +132,7 @@ def kind_of(angle):
 
 
 def kind_known(interval):
-    return "steady" if interval[1] < STEADY_BELOW else "swinging" if interval[0] >= SWINGING_FROM else "between"
+    return "steady" if interval[1] <= STEADY_BELOW else "swinging" if interval[0] >= SWINGING_FROM else "between"
 
 
 def families_flown(results):

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <utility>
 
@@ -17,6 +18,8 @@
 #include "ripstop/output/csv.h"
 #include "ripstop/output/plot.h"
 #include "ripstop/run/json.h"
+#include "ripstop/run/report/report.h"
+#include "ripstop/run/report/report_tables.h"
 
 namespace ripstop::inline run {
 namespace {
@@ -185,8 +188,8 @@ RecoveryStage stage_of(const RecoveryCanopy& canopy, std::size_t i, const std::v
   if (s.safe.lowest && s.speed.high > *s.safe.lowest)
     warnings.push_back(
         fmt::format("{}: it opens at up to {:.1f} m/s; the fastest safe deployment is {:.1f} "
-                    "m/s (lower end of its range)",
-                    canopy.name, s.speed.high, *s.safe.lowest));
+                    "m/s (lower end of its range, {})",
+                    canopy.name, s.speed.high, *s.safe.lowest, s.safe.method));
   return s;
 }
 
@@ -241,20 +244,31 @@ void write_recovery(const std::filesystem::path& folder, const RecoveryResult& r
   CsvTable table{columns_of<RecoveryRow>(), {}};
   for (const RecoveryRow& row : r.rows) table.rows.push_back(row_of(row));
   write_csv(folder / "trajectory.csv", table);
-  const auto plot = [&](const char* file, const char* label, auto value) {
+  const std::string json = to_json(r);
+  ReportRun run;
+  run.kind = "recovery", run.name = folder.filename().string();
+  add_result(run, json, folder / "result.json");
+  run.values.push_back({"landing_speed_m_s", nlohmann::json(r.landing_speed.value).dump()});
+  run.values.push_back({"energy_j", nlohmann::json(r.energy.value).dump()});
+  run.headline = {"total_mass_kg", "apogee_m", "landing_speed_m_s", "energy_j"};
+  const auto plot = [&](const std::string& name, const std::string& title, const ReportColumn& y,
+                        auto value) {
     Plot picture;
-    picture.title = r.title, picture.x.label = "time since apogee [s]", picture.y.label = label;
+    picture.title = r.title, picture.x.label = "time since apogee [s]";
+    picture.y.label = fmt::format("{} [{}]", y.text, y.unit);
     PlotSeries series;
     series.markers = false;
     for (const RecoveryRow& row : r.rows)
-      series.x.push_back(row.flight.state.time), series.y.push_back(value(row.flight.state));
+      series.x.push_back(row.flight.state.time), series.y.push_back(value(row));
+    run.plots.push_back({name, title, {"time since apogee", "s"}, y, {{y.text, series.x, series.y}}});
     picture.series.push_back(std::move(series));
-    write_plot(folder / file, picture);
+    write_plot(folder / (name + ".png"), picture);
   };
-  plot("height.png", "height above the ground [m]",
-       [&](const FlightState& s) { return s.height - r.ground; });
-  plot("speed.png", "speed [m/s]", [](const FlightState& s) { return s.speed; });
-  write_file(folder / "result.json", to_json(r));
+  plot("height", "Height", {"height above the ground", "m"},
+       [&](const RecoveryRow& row) { return row.flight.state.height - r.ground; });
+  plot("speed", "Speed", {"speed", "m/s"}, [](const RecoveryRow& row) { return row.flight.state.speed; });
+  write_file(folder / "result.json", json);
+  write_file(folder / report_name, report_page(report_on({std::move(run)}, r.title)));
 }
 
 }  // namespace ripstop::inline run
