@@ -41,6 +41,14 @@ TEST(RecoveryCommand, RefusesAUnitOfAnotherQuantityAndAnUnknownChoiceOfUnits) {
   EXPECT_EQ(ripstop_with(recovery(folder, {"--mass", "22", "--units", "imperial"})).code, 2);
 }
 
+TEST(RecoveryCommand, RefusesAHeightOfTheMainWithoutADrogue) {
+  const Finished run = ripstop_with({"recovery", examples + "flat-circular/case.toml", "--mass", "5",
+                                     "--apogee", "1000", "--main-height", "300"});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_NE(run.output.find("--main-height"), std::string::npos) << run.output;
+  EXPECT_NE(run.output.find("--drogue"), std::string::npos) << run.output;
+}
+
 TEST(LoadCommand, NeedsASpeedOrFindsTheFastestOne) {
   const std::string circular = examples + "flat-circular/case.toml";
   const Finished none = ripstop_with({"load", circular, "--mass", "5"});

@@ -239,6 +239,40 @@ RecoveryResult run_recovery(const Settings& main, const std::optional<Settings>&
   return r;
 }
 
+namespace {
+
+/// All values with a range; the groups of three rows that result.json makes of them are left out.
+void add_ranges(ReportRun& run, const RecoveryResult& r) {
+  ReportTable table{"ranges",
+                    "Values with their ranges",
+                    "The drag coefficients of both parachutes are smaller or larger by their uncertainty.",
+                    {{"stage", ""}, {"quantity", ""}, {"value", ""}, {"low", ""}, {"high", ""}, {"unit", ""}},
+                    {}};
+  const auto add = [&](const std::string& stage, const std::string& quantity, const Ranged& value,
+                       const char* unit) {
+    table.rows.push_back({stage, quantity, fmt::format("{:.5g}", value.value),
+                          fmt::format("{:.5g}", value.low), fmt::format("{:.5g}", value.high), unit});
+  };
+  for (const RecoveryStage& s : r.stages) {
+    add(s.name, "airspeed at the opening", s.speed, "m/s");
+    add(s.name, "rate of descent at the end", s.descent_rate, "m/s");
+    add(s.name, "duration", s.duration, "s");
+    add(s.name, "drift", s.drift, "m");
+  }
+  add("landing", "time since apogee", r.time, "s");
+  add("landing", "drift with the wind", r.drift, "m");
+  add("landing", "rate of descent", r.landing_speed, "m/s");
+  add("landing", "kinetic energy", r.energy, "J");
+  for (const SectionEnergy& s : r.sections)
+    add("landing", fmt::format("kinetic energy of {:.4g} kg", s.mass), s.energy, "J");
+  std::erase_if(run.tables, [](const ReportTable& t) {
+    return !t.rows.empty() && !t.rows.front().empty() && t.rows.front().front() == "value";
+  });
+  run.tables.insert(run.tables.begin(), std::move(table));
+}
+
+}  // namespace
+
 void write_recovery(const std::filesystem::path& folder, const RecoveryResult& r) {
   make_results_folder(folder);
   CsvTable table{columns_of<RecoveryRow>(), {}};
@@ -250,6 +284,7 @@ void write_recovery(const std::filesystem::path& folder, const RecoveryResult& r
   add_result(run, json, folder / "result.json");
   run.values.push_back({"landing_speed_m_s", nlohmann::json(r.landing_speed.value).dump()});
   run.values.push_back({"energy_j", nlohmann::json(r.energy.value).dump()});
+  add_ranges(run, r);
   run.headline = {"total_mass_kg", "apogee_m", "landing_speed_m_s", "energy_j"};
   const auto plot = [&](const std::string& name, const std::string& title, const ReportColumn& y,
                         auto value) {
