@@ -164,7 +164,7 @@ validate-openings: build  ## Coupled inflation of the same types, infinite mass,
 validate-filling: build  ## Openings of one canopy with one parameter changed at a time, into docs/tables: ten minutes; resumable
 	@/usr/bin/python3 validation/opening/filling.py --ripstop build/bin/ripstop
 
-validate-flights: build  ## Free flights of ten families, vents, cloths and grids compared with Knacke's values, into docs/tables: three hours; resumable
+validate-flights: build  ## Free flights of eleven families, vents, cloths and grids compared with Knacke's values, into docs/tables: three hours; resumable
 	@/usr/bin/python3 validation/flight/campaign.py --ripstop build/bin/ripstop
 	@/usr/bin/python3 validation/flight/shipped.py
 

@@ -96,7 +96,10 @@ void print_fastest(const FastestResult& r, const fs::path& folder) {
              100 * r.load_uncertainty, r.load_uncertainty_from);
   for (const SafeSpeed& s : r.methods)
     print_text("  {:<18} {}; load {:.1f} N{}\n", s.method, safe_speed_text(s), s.load,
-               s.applies ? "" : "; not applicable: " + s.note);
+               s.applies                     ? ""
+               : s.method == r.design_method ? "; " + s.note
+                                             : "; not applicable: " + s.note);
+  print_text("  USE {}\n", r.advice);
   print_text("{} (result.json)\n", folder.string());
 }
 

@@ -67,7 +67,7 @@ void print_result(const RecoveryResult& r, const fs::path& folder) {
   print_row("path in still air", fmt::format("{:.4g} m along the flight direction at apogee", r.range));
   print_text(
       "Ranges: drag coefficients of both parachutes smaller or larger by their uncertainty.\n"
-      "{} (height.png, speed.png, trajectory.csv, result.json)\n",
+      "{} (report.html, height.png, speed.png, trajectory.csv, result.json)\n",
       folder.string());
 }
 
@@ -88,14 +88,15 @@ int recovery(RecoveryArguments& options) {
   return show(result, options.json, [&] { print_result(result, options.out); });
 }
 
-void add_flight(CLI::App& command, RecoveryArguments& options) {
+void add_flight(CLI::App& command, CLI::Option* drogue, RecoveryArguments& options) {
   RecoveryRequest& r = options.request;
   add_number(command, "--mass", options.mass, key_range("payload.mass_kg"),
              "Mass that descends, without the parachutes [kg] (default: payload.mass_kg of the main's case)");
   add_number(command, "--apogee", options.apogee, above(0).up_to(highest_height),
              "Apogee above the ground [m]");
   add_number(command, "--main-height", r.main_height, above(0).up_to(highest_height),
-             "Height above the ground at which the main opens, with a drogue [m] (default: 300)");
+             "Height above the ground at which the main opens, with a drogue [m] (default: 300)")
+      ->needs(drogue);
   add_number(command, "--speed", r.speed, above(0).up_to(1000),
              "Horizontal airspeed at apogee [m/s] (default: 20, assumed)");
   add_number(command, "--delay", r.delay, from(0).up_to(1000),
@@ -108,8 +109,10 @@ void add_flight(CLI::App& command, RecoveryArguments& options) {
                  "Speed of the wind at its reference height [m/s] (default: that of the main's case); other "
                  "keys of the profile with --set flight.wind.KEY",
                  options.overrides);
-  command.add_flag("--drogue-released", r.drogue_released,
-                   "The drogue is released when the main opens (default: it remains attached)");
+  command
+      .add_flag("--drogue-released", r.drogue_released,
+                "The drogue is released when the main opens (default: it remains attached)")
+      ->needs(drogue);
 }
 
 }  // namespace
@@ -126,8 +129,9 @@ void add_recovery(CLI::App& app, int& status) {
       "         --bay-diameter '5.9 in' --units us");
   command->add_option("case", options->main_case, "Case file of the main, or of the only parachute (TOML)")
       ->required();
-  command->add_option("--drogue", options->drogue_case, "Case file of the drogue, which opens at apogee");
-  add_flight(*command, *options);
+  CLI::Option* drogue =
+      command->add_option("--drogue", options->drogue_case, "Case file of the drogue, which opens at apogee");
+  add_flight(*command, drogue, *options);
   command
       ->add_option("--steady", r.main_steady,
                    "Run folder of ripstop steady or fly with the drag area of the main")
@@ -135,7 +139,8 @@ void add_recovery(CLI::App& app, int& status) {
   command
       ->add_option("--drogue-steady", r.drogue_steady,
                    "Run folder of ripstop steady or fly with the drag area of the drogue")
-      ->check(CLI::ExistingDirectory);
+      ->check(CLI::ExistingDirectory)
+      ->needs(drogue);
   add_numbers(*command, "--section", r.sections, above(0).up_to(1e6),
               "Masses of sections of the rocket, for the kinetic energy of each at landing [kg]");
   add_number(*command, "--bay-diameter", r.bay_diameter, above(0).up_to(10),

@@ -58,6 +58,7 @@ PYBIND11_MODULE(_ripstop, module) {
   add_fit(module);
   add_pattern(module);
   add_load(module);
+  add_recovery(module);
   add_size(module);  // has the load's stages
   add_flight(module);
   add_fabric(module);

@@ -27,6 +27,7 @@ void add_fit(py::module_& module);
 void add_pattern(py::module_& module);
 void add_size(py::module_& module);
 void add_load(py::module_& module);
+void add_recovery(py::module_& module);
 void add_flight(py::module_& module);
 void add_fabric(py::module_& module);
 void add_sweep(py::module_& module);

@@ -26,7 +26,7 @@ TEST(RecoveryCommand, PrintsBothUnitsAndWritesFilesInSi) {
     EXPECT_NE(run.output.find(text), std::string::npos) << text << "\n" << run.output;
   const Finished si = ripstop_with(recovery(folder, {"--mass", "22"}));
   EXPECT_EQ(si.output.find("lbf"), std::string::npos) << si.output;
-  for (const char* file : {"result.json", "trajectory.csv", "height.png", "speed.png"})
+  for (const char* file : {"result.json", "trajectory.csv", "height.png", "speed.png", "report.html"})
     EXPECT_TRUE(std::filesystem::exists(folder.path / "out" / file)) << file;
 }
 
@@ -41,6 +41,14 @@ TEST(RecoveryCommand, RefusesAUnitOfAnotherQuantityAndAnUnknownChoiceOfUnits) {
   EXPECT_EQ(ripstop_with(recovery(folder, {"--mass", "22", "--units", "imperial"})).code, 2);
 }
 
+TEST(RecoveryCommand, RefusesAHeightOfTheMainWithoutADrogue) {
+  const Finished run = ripstop_with({"recovery", examples + "flat-circular/case.toml", "--mass", "5",
+                                     "--apogee", "1000", "--main-height", "300"});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_NE(run.output.find("--main-height"), std::string::npos) << run.output;
+  EXPECT_NE(run.output.find("--drogue"), std::string::npos) << run.output;
+}
+
 TEST(LoadCommand, NeedsASpeedOrFindsTheFastestOne) {
   const std::string circular = examples + "flat-circular/case.toml";
   const Finished none = ripstop_with({"load", circular, "--mass", "5"});
@@ -50,7 +58,8 @@ TEST(LoadCommand, NeedsASpeedOrFindsTheFastestOne) {
   const Finished fastest =
       ripstop_with({"load", circular, "--mass", "5", "--fastest", "--out", (folder.path / "out").string()});
   EXPECT_EQ(fastest.code, 0) << fastest.output;
-  EXPECT_NE(fastest.output.find("FASTEST SAFE DEPLOYMENT"), std::string::npos) << fastest.output;
+  for (const char* text : {"FASTEST SAFE DEPLOYMENT", "USE ", "the lower end for infinite mass"})
+    EXPECT_NE(fastest.output.find(text), std::string::npos) << text << "\n" << fastest.output;
 }
 
 }  // namespace

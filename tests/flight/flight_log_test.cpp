@@ -23,6 +23,7 @@ struct Sensors {
   double range = 1e9;     // of the accelerometer [m/s2]
   double until = 1e9;     // [s]
   double spikes = 0;      // share of the heights that are 0
+  unsigned seed = 7;      // of noise and missing samples
 };
 
 /// Down from 3,000 m under the drogue; at 300 m above ground the main fills within 1.2 s.
@@ -37,7 +38,7 @@ std::vector<FlightRow> known_flight() {
 }
 
 FlightRecords measured(const std::vector<FlightRow>& flight, const Sensors& s) {
-  std::mt19937 random(7);
+  std::mt19937 random(s.seed);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> uniform;
   FlightRecords records;
@@ -94,6 +95,15 @@ TEST(FlightLog, GivesThemWithNoiseDroppedSamplesLagAndSpikes) {
   Sensors slow;
   slow.rate = 10, slow.noise = 0.2;
   expect_known(analysed(slow));
+}
+
+TEST(FlightLog, GivesThemForEveryRealisationOfTheNoise) {
+  Sensors sensors;
+  sensors.noise = 1, sensors.dropped = 0.2, sensors.lag = 0.5;
+  for (sensors.seed = 100; sensors.seed < 120; ++sensors.seed) {
+    SCOPED_TRACE(sensors.seed);
+    expect_known(analysed(sensors));
+  }
 }
 
 TEST(FlightLog, DragAreasOverHeightScatterAboutThatOfThePhase) {

@@ -76,6 +76,26 @@ class Cases(unittest.TestCase):
         self.assertEqual(ripstop.load(case, 2, 20, height_m=500).flight["height_m"][0], 500)
         self.assertEqual(ripstop.load(small.case(), 2, 20).flight["height_m"][0], 1000)
 
+    def test_recovery_and_fastest_deployment_are_those_of_the_program(self):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            main, drogue = small.case(), small.case().scaled(0.8)
+            (folder / "main.toml").write_text(main.to_toml(), encoding="utf-8")
+            (folder / "drogue.toml").write_text(drogue.to_toml(), encoding="utf-8")
+            landed = ripstop.recovery(main, drogue, 3, 1000, ground_m=200, sections_kg=[1, 2])
+            text = small.program("recovery", folder / "main.toml", "--drogue", folder / "drogue.toml", "--mass", 3, "--apogee", 1000,
+                                 "--ground", 200, "--section", "1,2", "--out", folder / "landed", "--json")[1]
+            self.assertEqual(landed.to_json(), text)
+            self.assertEqual(landed.trajectory["height_m"][-1], 200)
+            safe = ripstop.fastest_deployment(main, 3, margin=0.5, reefing=[(0.3, 2)])
+            text = small.program("load", folder / "main.toml", "--mass", 3, "--fastest", "--margin", 0.5, "--reef", "0.3:2",
+                                 "--out", folder / "safe", "--json")[1]
+            self.assertEqual(safe.to_json(), text)
+        infinite = ripstop.fastest_deployment(main, 3, margin=9).methods[0]
+        self.assertLess(infinite.lowest_m_s, infinite.speed_m_s)
+        with self.assertRaises(ripstop.Error):
+            ripstop.recovery(main, drogue, 3, 200)  # the main opens above the apogee
+
     def test_a_wrong_setting_leaves_the_case_as_it_was(self):
         case = small.case()
         before = case.to_toml()

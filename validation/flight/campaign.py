@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Free flights of ten families and studies of vent, cloth and grid, compared with Knacke's manual.
+"""Free flights of eleven families and studies of vent, cloth and grid, compared with Knacke's manual.
 
     make validate-flights            (or: campaign.py --ripstop build/bin/ripstop --runs runs/flights --jobs 2)
 
@@ -37,7 +37,7 @@ class Flight:
 
 # Duration [s]: ten periods of canopies that swing take 30 s and more, of the others 15 s.
 FAMILIES = {"flat-circular": 40, "conical": 40, "elliptical": 30, "extended-skirt": 40, "hemispherical": 40,
-            "quarter-spherical": 30, "cross": 15, "ringslot": 15, "ringsail": 15, "disk-gap-band": 20}
+            "quarter-spherical": 30, "cross": 15, "annular": 25, "ringslot": 15, "ringsail": 15, "disk-gap-band": 20}
 F_111 = "parachute.canopy_material=f-111-physical"  # 3 CFM; the cases have MIL-C-7020 type I of 100 CFM
 CLOTHS = {"flat-circular, 3 CFM (F-111)": "flat-circular-f-111", "flat-circular, 30 CFM": "flat-circular-30-cfm",
           "flat-circular, 100 CFM": "flat-circular", "extended-skirt, 3 CFM (F-111)": "extended-skirt-f-111",
@@ -61,7 +61,7 @@ FLIGHTS = {
 # Average angle of oscillation [deg], Knacke's Tables 5-1 and 5-2. Slotted canopies as OSCALC's manual reprints them
 # (mwitty.com/content.php?id=5709156, text by character recognition); all others from memory, not verified in print.
 KNACKE_ANGLE = {"flat-circular": (10, 40), "conical": (10, 30), "extended-skirt": (10, 15), "hemispherical": (10, 15),
-                "cross": (0, 3), "ringslot": (0, 5), "ringsail": (5, 10), "disk-gap-band": (10, 15)}
+                "cross": (0, 3), "annular": (0, 6), "ringslot": (0, 5), "ringsail": (5, 10), "disk-gap-band": (10, 15)}
 STEADY_BELOW, SWINGING_FROM = 6, 10  # mean of the peaks of the angle from the vertical [deg]
 
 
@@ -134,7 +134,7 @@ def kind_of(angle):
 
 
 def kind_known(interval):
-    return "steady" if interval[1] < STEADY_BELOW else "swinging" if interval[0] >= SWINGING_FROM else "between"
+    return "steady" if interval[1] <= STEADY_BELOW else "swinging" if interval[0] >= SWINGING_FROM else "between"
 
 
 def families_flown(results):

@@ -129,7 +129,9 @@ ExportedRecovery two_stages(const ExportedParachute& parachute) {
   return recovery;
 }
 
-// RocketPy evaluates triggers at its sampling rate with pressure, height and state, and uses the last opened drag area.
+// RocketPy 1.12 (simulation/flight.py) passes pressure, height and state to a trigger and no time. It calls a trigger once
+// per sample with time_overshoot and twice without, and has not the same samples after every event. It uses the drag area
+// that opened last.
 TEST_F(Export, RocketPyHasDrogueReefedMainAndDisreefInTime) {
   const std::string script = R"(
 import sys
@@ -142,19 +144,23 @@ class Rocket:
 added = space["add_to"](Rocket())
 drogue, reefed, main = added
 after = main[2]
-rate = main[4]
-state = [0, 0, 0, 0, 0, 10]
-for flight in range(2):  # the second flight begins anew
-    state[5] = 10
+for calls, step in ((1, 0.01), (2, 0.01), (1, 0.1)):  # each flight begins anew
+    state = [0, 0, 0, 0, 0, 10]
     assert not any(after(0, h, state) for h in range(0, 1000))
-    state[5] = -20
-    calls, h = 0, 1000.0
-    while not after(0, h, state):
-        h -= 20 / rate
-        calls += h < 300
-    print(calls / rate)
+    time, v, z, begin = 0, 20, 1000.0, None
+    while True:
+        state[2], state[5] = z, -v
+        if begin is None and z - 200 < 300: begin = time
+        opens = [after(0, z - 200, state) for _ in range(calls)]
+        if opens[-1]: break
+        slower = 9.81 if begin is None else 9.81 - 0.09 * v * v  # the reefed main decelerates
+        z, v, time = z - v * step - slower * step**2 / 2, v + slower * step, time + step
+    print(time - begin)
 for one in added: print(one[1], one[3])
-for one in space["deviations"]: print(one["cd_s"], one["lag"])
+for one in space["deviations"]:
+    shape, scale, name = one["lag"]
+    assert name == "gamma"
+    print(one["cd_s"], shape * scale, shape**0.5 * scale)
 print(drogue[2], reefed[2])
 )";
   const ExportedRecovery recovery = two_stages(parachute());
@@ -163,6 +169,7 @@ print(drogue[2], reefed[2])
   const double lag = std::sqrt(0.25) * 1.2, rest = std::sqrt(0.75) * 1.2;
   const double expected[] = {5,
                              5,
+                             5,
                              0.1 * area,
                              0.2,
                              0.35 * area,
@@ -170,6 +177,7 @@ print(drogue[2], reefed[2])
                              1.1 * area,
                              rest,
                              0.1 * deviation,
+                             0.2,
                              recovery.stages[0].parachute.lag_deviation,
                              std::hypot(0.1, 0.25) * deviation};
   for (const double value : expected) {

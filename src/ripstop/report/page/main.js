@@ -7,7 +7,7 @@ const Page = (() => {
   const sections = [];
   const figures = [];
   const kinds = { opening: "Opening", flight: "Flight", steady: "Steady run", size: "Sizing", stability: "Stability",
-    "flight-log": "Flight log" };
+    recovery: "Recovery", "flight-log": "Flight log" };
 
   function headline(run) {
     const cards = run.headline.map((key) => run.values.find((value) => value.key === key)).filter((value) => value && value.value !== null);

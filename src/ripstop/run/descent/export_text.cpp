@@ -88,18 +88,33 @@ std::string comment_of(const ExportedStage& stage, const std::string& name) {
       p.nominal_area, p.drag_coefficient, basis_text(p));
 }
 
+// RocketPy passes no time to a trigger, and calls it once or twice per sample (time_overshoot). The time therefore follows
+// from the heights lost, dt = 2 dz / (v1 + v2), which is exact at constant acceleration.
 constexpr const char* after_class =
     "class After:\n"
-    "    \"\"\"A time after a trigger, by the number of calls at the sampling rate.\"\"\"\n\n"
+    "    \"\"\"A time after a trigger. RocketPy passes none: it is the height lost over the speed, "
+    "summed.\"\"\"\n\n"
     "    def __init__(self, trigger, seconds):\n"
-    "        self.trigger, self.delay, self.calls = trigger, seconds * SAMPLING_RATE, 0\n\n"
+    "        self.trigger, self.seconds, self.time, self.last = trigger, seconds, 0, None\n\n"
     "    def __call__(self, pressure, height, state):\n"
-    "        if state[5] >= 0:  # the rocket ascends, also at the start of the next simulation\n"
-    "            self.calls = 0\n"
+    "        z, descent = state[2], -state[5]\n"
+    "        if descent <= 0:  # the rocket ascends, also at the start of the next simulation\n"
+    "            self.time, self.last = 0, None\n"
     "            return False\n"
-    "        if self.calls > 0 or self.trigger == \"apogee\" or height < self.trigger:\n"
-    "            self.calls += 1\n"
-    "        return self.calls > self.delay\n\n\n";
+    "        if self.last is not None:\n"
+    "            self.time += 2 * (self.last[0] - z) / (self.last[1] + descent)\n"
+    "        elif self.trigger != \"apogee\" and height >= self.trigger:\n"
+    "            return False\n"
+    "        self.last = (z, descent)\n"
+    "        return self.time >= self.seconds\n\n\n";
+
+/// RocketPy fails on a negative lag, which a normal distribution has in one of 740 draws. A gamma distribution of the
+/// same mean and standard deviation has none: shape (mean / deviation)^2, scale deviation^2 / mean.
+std::string lag_distribution(double lag, double relative_deviation) {
+  if (!(lag > 0 && relative_deviation > 0)) return {};
+  const double square = relative_deviation * relative_deviation;
+  return fmt::format(", lag=({}, {}, \"gamma\")", 1 / square, lag * square);
+}
 
 /// The two dictionaries of one part: arguments and standard deviations. `others`: drag area of a drogue that remains [m2].
 struct PartText {
@@ -118,9 +133,8 @@ PartText rocketpy_part(const ExportedStage& stage, const Part& part, double othe
                   literal(part.name), area,
                   part.after > 0 ? fmt::format("After({}, {})", plain, part.after) : plain, part.lag, radius,
                   p.height * std::sqrt(part.share), p.porosity, area / (std::numbers::pi * radius * radius)),
-      fmt::format("    dict(cd_s={}, lag={}),\n",
-                  std::hypot(part.share * p.drag_area_deviation, others_deviation),
-                  p.lag > 0 ? part.lag * p.lag_deviation / p.lag : 0)};
+      fmt::format("    dict(cd_s={}{}),\n", std::hypot(part.share * p.drag_area_deviation, others_deviation),
+                  lag_distribution(part.lag, p.lag > 0 ? p.lag_deviation / p.lag : 0))};
 }
 
 std::string material_text(const std::string& name, double density, const char* unit, const char* type) {
@@ -194,9 +208,11 @@ std::string rocketpy_text(const ExportedRecovery& recovery) {
       "# RocketPy's added mass follows from radius, height and porosity: those of the computed canopy.\n{}"
       "SAMPLING_RATE = {}\n\n\n{}"
       "parachutes = [\n{}]\n\n"
-      "# Standard deviations for StochasticParachute: drag area {:.0f} % or the uncertainty of the run, lag "
-      "{:.0f} "
-      "% (assumed).\n"
+      "# For StochasticParachute: standard deviation of the drag area, {:.0f} % or the uncertainty of the "
+      "run; "
+      "gamma\n# distribution (shape, scale) of the lag with a standard deviation of {:.0f} % (assumed): "
+      "RocketPy "
+      "fails on a lag below 0.\n"
       "deviations = [\n{}]\n\n\n"
       "def add_to(rocket):\n    \"\"\"Add the parachutes to a rocketpy.Rocket and return them.\"\"\"\n"
       "    return [rocket.add_parachute(**arguments) for arguments in parachutes]\n\n\n"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <utility>
 
@@ -17,6 +18,8 @@
 #include "ripstop/output/csv.h"
 #include "ripstop/output/plot.h"
 #include "ripstop/run/json.h"
+#include "ripstop/run/report/report.h"
+#include "ripstop/run/report/report_tables.h"
 
 namespace ripstop::inline run {
 namespace {
@@ -185,8 +188,8 @@ RecoveryStage stage_of(const RecoveryCanopy& canopy, std::size_t i, const std::v
   if (s.safe.lowest && s.speed.high > *s.safe.lowest)
     warnings.push_back(
         fmt::format("{}: it opens at up to {:.1f} m/s; the fastest safe deployment is {:.1f} "
-                    "m/s (lower end of its range)",
-                    canopy.name, s.speed.high, *s.safe.lowest));
+                    "m/s (lower end of its range, {})",
+                    canopy.name, s.speed.high, *s.safe.lowest, s.safe.method));
   return s;
 }
 
@@ -236,25 +239,71 @@ RecoveryResult run_recovery(const Settings& main, const std::optional<Settings>&
   return r;
 }
 
+namespace {
+
+/// All values with a range; the groups of three rows that result.json makes of them are left out.
+void add_ranges(ReportRun& run, const RecoveryResult& r) {
+  ReportTable table{"ranges",
+                    "Values with their ranges",
+                    "The drag coefficients of both parachutes are smaller or larger by their uncertainty.",
+                    {{"stage", ""}, {"quantity", ""}, {"value", ""}, {"low", ""}, {"high", ""}, {"unit", ""}},
+                    {}};
+  const auto add = [&](const std::string& stage, const std::string& quantity, const Ranged& value,
+                       const char* unit) {
+    table.rows.push_back({stage, quantity, fmt::format("{:.5g}", value.value),
+                          fmt::format("{:.5g}", value.low), fmt::format("{:.5g}", value.high), unit});
+  };
+  for (const RecoveryStage& s : r.stages) {
+    add(s.name, "airspeed at the opening", s.speed, "m/s");
+    add(s.name, "rate of descent at the end", s.descent_rate, "m/s");
+    add(s.name, "duration", s.duration, "s");
+    add(s.name, "drift", s.drift, "m");
+  }
+  add("landing", "time since apogee", r.time, "s");
+  add("landing", "drift with the wind", r.drift, "m");
+  add("landing", "rate of descent", r.landing_speed, "m/s");
+  add("landing", "kinetic energy", r.energy, "J");
+  for (const SectionEnergy& s : r.sections)
+    add("landing", fmt::format("kinetic energy of {:.4g} kg", s.mass), s.energy, "J");
+  std::erase_if(run.tables, [](const ReportTable& t) {
+    return !t.rows.empty() && !t.rows.front().empty() && t.rows.front().front() == "value";
+  });
+  run.tables.insert(run.tables.begin(), std::move(table));
+}
+
+}  // namespace
+
 void write_recovery(const std::filesystem::path& folder, const RecoveryResult& r) {
   make_results_folder(folder);
   CsvTable table{columns_of<RecoveryRow>(), {}};
   for (const RecoveryRow& row : r.rows) table.rows.push_back(row_of(row));
   write_csv(folder / "trajectory.csv", table);
-  const auto plot = [&](const char* file, const char* label, auto value) {
+  const std::string json = to_json(r);
+  ReportRun run;
+  run.kind = "recovery", run.name = folder.filename().string();
+  add_result(run, json, folder / "result.json");
+  run.values.push_back({"landing_speed_m_s", nlohmann::json(r.landing_speed.value).dump()});
+  run.values.push_back({"energy_j", nlohmann::json(r.energy.value).dump()});
+  add_ranges(run, r);
+  run.headline = {"total_mass_kg", "apogee_m", "landing_speed_m_s", "energy_j"};
+  const auto plot = [&](const std::string& name, const std::string& title, const ReportColumn& y,
+                        auto value) {
     Plot picture;
-    picture.title = r.title, picture.x.label = "time since apogee [s]", picture.y.label = label;
+    picture.title = r.title, picture.x.label = "time since apogee [s]";
+    picture.y.label = fmt::format("{} [{}]", y.text, y.unit);
     PlotSeries series;
     series.markers = false;
     for (const RecoveryRow& row : r.rows)
-      series.x.push_back(row.flight.state.time), series.y.push_back(value(row.flight.state));
+      series.x.push_back(row.flight.state.time), series.y.push_back(value(row));
+    run.plots.push_back({name, title, {"time since apogee", "s"}, y, {{y.text, series.x, series.y}}});
     picture.series.push_back(std::move(series));
-    write_plot(folder / file, picture);
+    write_plot(folder / (name + ".png"), picture);
   };
-  plot("height.png", "height above the ground [m]",
-       [&](const FlightState& s) { return s.height - r.ground; });
-  plot("speed.png", "speed [m/s]", [](const FlightState& s) { return s.speed; });
-  write_file(folder / "result.json", to_json(r));
+  plot("height", "Height", {"height above the ground", "m"},
+       [&](const RecoveryRow& row) { return row.flight.state.height - r.ground; });
+  plot("speed", "Speed", {"speed", "m/s"}, [](const RecoveryRow& row) { return row.flight.state.speed; });
+  write_file(folder / "result.json", json);
+  write_file(folder / report_name, report_page(report_on({std::move(run)}, r.title)));
 }
 
 }  // namespace ripstop::inline run

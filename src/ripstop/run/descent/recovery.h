@@ -150,7 +150,7 @@ std::string to_json(const RecoveryResult& result);
 RecoveryResult run_recovery(const Settings& main, const std::optional<Settings>& drogue,
                             const RecoveryRequest& request);
 
-/// result.json, trajectory.csv, height.png and speed.png.
+/// result.json, trajectory.csv, height.png, speed.png and report.html.
 void write_recovery(const std::filesystem::path& folder, const RecoveryResult& result);
 
 }  // namespace ripstop::inline run

@@ -93,6 +93,42 @@ SafeSpeed safe_speed(const Settings& resolved, const LoadsAtSpeed& loads, const 
   return safe;
 }
 
+std::string printed(const std::optional<double>& speed) {
+  return speed ? fmt::format("{:.1f} m/s", *speed) : fmt::format("more than {:g} m/s", fastest_deployment);
+}
+
+/// Which speed to use. Infinite mass and the finite-mass methods may differ by a factor of three and more, as a large
+/// canopy slows a light payload down during a long filling.
+std::string advice_of(const FastestResult& r, double filling_distance) {
+  const SafeSpeed& design = r.design();
+  if (design.unsafe_at) return "no speed: the design method keeps the margin at none";
+  if (r.design_method == computed_method)
+    return fmt::format(
+        "{}, the lower end for the computed opening. It is valid for the deployment of that run",
+        printed(design.lowest));
+  std::string text = fmt::format(
+      "{}, the lower end for infinite mass: the speed does not decrease during filling. It covers every way "
+      "to "
+      "deploy; the snatch load is excluded",
+      printed(design.lowest));
+  std::optional<double> low = fastest_deployment, high = 0.0;
+  bool others = false;
+  for (const SafeSpeed& s : r.methods) {
+    if (s.method == infinite_mass_method || !s.applies) continue;
+    others = true;
+    if (s.speed && low) low = std::min(*low, *s.speed);
+    high = s.speed && high ? std::optional(std::max(*high, *s.speed)) : std::nullopt;
+  }
+  if (!others) return text;
+  return text +
+         fmt::format(
+             ". The other methods allow {} to {}, because the payload slows down while the canopy fills "
+             "over {:.3g} D0. A canopy that is thrown open fills within 1 to 3 D0 and does not allow "
+             "them. Use them only if a measured or computed opening of this deployment (--opening) "
+             "confirms that distance",
+             printed(low), printed(high), filling_distance);
+}
+
 }  // namespace
 
 const SafeSpeed& FastestResult::design() const {
@@ -133,6 +169,7 @@ FastestResult run_fastest(const Settings& resolved, LoadRequest request, double 
     r.methods.push_back(safe_speed(resolved, loads, m.method, slowest, r));
   const bool computed = fast.record_peak_load && request.reefing.empty();
   r.design_method = computed ? computed_method : infinite_mass_method;
+  r.advice = advice_of(r, fast.filling_constant);
   if (r.design().unsafe_at)
     r.warnings.push_back(
         fmt::format("no deployment is safe by the method {}: at {:.3g} m/s, about the rate of descent, the "

@@ -47,6 +47,7 @@ struct FastestResult {
   double load_uncertainty = 0;                              // relative
   std::string load_uncertainty_from;
   std::string design_method;  // of `methods`: whose lowest speed is the answer
+  std::string advice;         // which speed to use, and why the methods differ
   std::vector<SafeSpeed> methods;
   std::vector<std::string> warnings;
 
@@ -62,6 +63,7 @@ void each_member(T& r, Visit&& visit) {
   visit("load_uncertainty", r.load_uncertainty);
   visit("load_uncertainty_from", r.load_uncertainty_from);
   visit("design_method", r.design_method);
+  visit("advice", r.advice);
   visit("methods", r.methods);
   visit("warnings", r.warnings);
 }
