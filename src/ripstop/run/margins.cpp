@@ -86,10 +86,10 @@ std::vector<std::string> margin_warnings(const std::optional<Margins>& margins) 
   for (const Margin& m : weakest_of_kinds(*margins))
     if (m.margin && *m.margin < 0)
       all.push_back(
-          fmt::format("{} exceeds its allowable load: its load of {} {} with the safety factor is {:.3g} "
+          fmt::format("{} exceeds its allowable load: its load of {} {} with the safety factor is {} "
                       "times the allowable {} {} (margin of safety {:+.2f}); use a stronger material",
-                      m.member, rounded(m.load), m.unit, *m.used, rounded(*m.strength * m.knock_down), m.unit,
-                      *m.margin));
+                      m.member, rounded(m.load), m.unit, rounded(*m.used, 3),
+                      rounded(*m.strength * m.knock_down), m.unit, *m.margin));
   return all;
 }
 
