@@ -100,7 +100,8 @@ TEST(Flight, RefusesImpossibleFlights) {
   refused([](Case& given) { given.flight.velocity_m_s = Vec3{80, 0, -80}; }, "flight.velocity_m_s");
   Case with_body = small_flight();
   with_body.bodies["rocket"];
-  EXPECT_NE(refusal_of([&] { flight_settings(with_body, {}); }).find("body.rocket"), std::string::npos);
+  EXPECT_NE(refusal_of([&] { flight_settings(with_body, {}); }, ExitCode::usage).find("body.rocket"),
+            std::string::npos);
 }
 
 // A flight that fails ends with its time, and without means.
