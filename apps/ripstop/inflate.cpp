@@ -239,10 +239,11 @@ int status_of(bool settled, const Settings& resolved) {
 void print_samples(const SampleSummary& summary, const fs::path& folder) {
   fmt::print("{}: {} openings with perturbed folds\n  {:<30} {:>10} {:>10} {:>10} {:>10}\n", summary.title,
              summary.samples, "", "mean", "std. dev.", "lowest", "highest");
-  const auto row = [](const char* name, const std::optional<Statistic>& s) {
+  const auto row = [&](const char* name, const std::optional<Statistic>& s) {
     if (s)
-      fmt::print("  {:<30} {:>10.4g} {:>10.3g} {:>10.4g} {:>10.4g}\n", name, s->mean, s->standard_deviation,
-                 s->lowest, s->highest);
+      fmt::print("  {:<30} {:>10.4g} {:>10.3g} {:>10.4g} {:>10.4g}{}\n", name, s->mean, s->standard_deviation,
+                 s->lowest, s->highest,
+                 s->openings < summary.samples ? fmt::format("   of {} openings", s->openings) : "");
   };
   row("peak load, N", summary.peak_load);
   row("peak, low-passed, N", summary.smooth_peak);
@@ -252,6 +253,7 @@ void print_samples(const SampleSummary& summary, const fs::path& folder) {
   row("finite-mass factor X_1", summary.finite_mass_factor);
   fmt::print("  files                          {} (result.json, sample-001 and following)\n",
              folder.string());
+  print_warnings(summary.warnings);
 }
 
 int sample(const InflateArguments& options, const InflationFolderSettings& settings, const Settings& resolved,

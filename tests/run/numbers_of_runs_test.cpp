@@ -308,6 +308,12 @@ TEST(RunNumbers, OfACoupledInflationAreItsLargestDragAreaAndThePayloadsEnd) {
   EXPECT_DOUBLE_EQ(*r.end_angle, state.air.flight.angle * 180 / std::numbers::pi);
   EXPECT_EQ(*r.height_lost, state.air.flight.fallen);
   EXPECT_GT(*r.height_lost, 0);
+  // After 2 ms the canopy is folded still: nothing is relative to a full canopy, and a warning names the duration.
+  EXPECT_EQ(r.filled, false);
+  EXPECT_FALSE(r.filling_time || r.opening_force_coefficient || r.finite_mass_factor);
+  EXPECT_TRUE(std::any_of(r.warnings->begin(), r.warnings->end(), [](const std::string& text) {
+    return text.find("has not filled within inflation.duration_s = 0.002 s") != std::string::npos;
+  }));
 }
 
 // Air of a cell has fifty times the mass of its cloth. The faces of the flow that are nearly parallel to folded cloth
@@ -324,6 +330,7 @@ TEST(RunNumbers, InHeavyAirAFoldedCanopyIsLoadedLessThanTheOpenOne) {
       0.5 * 0.5 * 20 * 20 * 20 * nominal_area(resolved.parachute());  // C_D q S0, C_D = 0.5 [N]
   EXPECT_LT(opened.result.peak_load, open);
   EXPECT_GT(opened.result.peak_load, 0.01 * open);
+  EXPECT_FALSE(opened.result.filled.value_or(true) || opened.result.opening_force_coefficient);
 }
 
 // Values that were not finite have been used as the number of a cell or as a size here: large and light canopies at

@@ -152,6 +152,7 @@ const std::map<std::string_view, Wording>& known() {  // NOLINT(readability-func
       {"opening_force_coefficient", {"opening force coefficient C_x", ""}},
       {"finite_mass_factor", {"finite-mass factor X₁", ""}},
       {"filling_distance_diameters", {"filling distance over nominal diameter", ""}},
+      {"filled", {"the canopy has filled", ""}},
       {"area_growth_exponent", {"exponent of the area's growth over time", ""}},
       {"design_load_n", {"design load", "N"}},
       {"design_load_from", {"source of the design load", ""}},

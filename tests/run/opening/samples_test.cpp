@@ -12,11 +12,30 @@ namespace {
 TEST(Samples, StatisticIsThatOfTheValuesThatAreThere) {
   const auto s = statistic_of({2.0, std::nullopt, 4.0, 9.0});
   ASSERT_TRUE(s);
+  EXPECT_EQ(s->openings, 3);
   EXPECT_DOUBLE_EQ(s->mean, 5);
   EXPECT_DOUBLE_EQ(s->standard_deviation, std::sqrt(13.0));
   EXPECT_EQ(s->lowest, 2);
   EXPECT_EQ(s->highest, 9);
   EXPECT_FALSE(statistic_of({std::nullopt}));
+}
+
+TEST(Samples, WarningsNameTheOpeningsThatHaveNotFilledOrMustNotBeUsed) {
+  SampleSummary summary;
+  summary.samples = 3, summary.folders = {"sample-001", "sample-002", "sample-003"};
+  summarise_samples({R"({"peak_load_n": 10, "filling_time_s": 0.5, "filled": true, "usable": true})",
+                     R"({"peak_load_n": 4, "filled": false, "usable": true})",
+                     R"({"peak_load_n": 7, "filling_time_s": 0.3, "filled": true, "usable": false})"},
+                    summary);
+  EXPECT_EQ(summary.peak_load->openings, 3);
+  EXPECT_EQ(summary.filling_time->openings, 2);
+  EXPECT_DOUBLE_EQ(summary.filling_time->mean, 0.4);
+  EXPECT_FALSE(summary.opening_force_coefficient);
+  ASSERT_EQ(summary.warnings.size(), 2U);
+  EXPECT_NE(summary.warnings[0].find("1 of 3 openings ended before the canopy had filled"),
+            std::string::npos);
+  EXPECT_NE(summary.warnings[0].find("sample-002"), std::string::npos);
+  EXPECT_NE(summary.warnings[1].find("sample-003"), std::string::npos);
 }
 
 TEST(Samples, SeedPerturbsTheFoldsByAHundredthOfTheirRadius) {

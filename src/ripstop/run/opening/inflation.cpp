@@ -99,6 +99,9 @@ void take_steady_load(InflationResult& r, const LoadSource& source, const Openin
   if (source.steady_drag) r.steady_drag_returned = *r.steady_load / *source.steady_drag;
 }
 
+/// Projected area over S0, below which a canopy is folded: an open one has 0.35 to 0.5.
+constexpr double folded_share = 0.25;
+
 /// C_x times the drag of the open canopy at the speed of deployment, and the handbook's methods for a payload.
 void compare_with_handbook(InflationResult& r, const Settings& resolved, const LoadSource& source,
                            const Opening& solver) {
@@ -116,9 +119,10 @@ void compare_with_handbook(InflationResult& r, const Settings& resolved, const L
   }
   r.estimate = opening_estimate(resolved.parachute(), drag, from);
   const double peak = r.smooth_peak.value_or(r.peak_load);
-  if (solver.air() && !flies(solver) && drag) r.opening_force_coefficient = peak / *drag;
+  const bool full = r.filled.value_or(true);
+  if (solver.air() && !flies(solver) && drag && full) r.opening_force_coefficient = peak / *drag;
   if (!flies(solver)) return;
-  if (r.estimate.load) r.finite_mass_factor = peak / *r.estimate.load;
+  if (r.estimate.load && full) r.finite_mass_factor = peak / *r.estimate.load;
   r.handbook = handbook_methods(resolved);
 }
 
@@ -130,6 +134,8 @@ void take_filling(InflationResult& r, const Settings& resolved, const Opening& s
   r.deployment = deployment_of(resolved);
   const auto filling = filling_of(history.frames);
   r.filling_time = filling ? std::optional(filling->time) : std::nullopt;
+  const double start_area = history.frames.empty() ? 0 : history.frames.front().size.projected_area;
+  if (start_area < folded_share * nominal_area(resolved.parachute())) r.filled = filling.has_value();
   if (!filling) return;
   r.growth_exponent = filling->exponent;
   double path = filling->time * solver.problem().air->flow.air.speed();
@@ -163,6 +169,11 @@ void take_quality(InflationResult& r, const Settings& resolved, const Opening& s
   }
   Judgement judgement = judge(values);
   judgement.add(margin_warnings(r.margins));
+  if (!r.filled.value_or(true))
+    judgement.add(
+        {fmt::format("the canopy has not filled within inflation.duration_s = {:g} s: peak loads are "
+                     "those until then, and C_x and X_1 are not computed; increase the duration",
+                     solver.problem().settings.duration_s)});
   std::optional<double> distance;
   for (const AirRow& row : history.air)
     if (row.time <= r.smooth_peak_time.value_or(r.peak_time))

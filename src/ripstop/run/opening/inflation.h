@@ -42,6 +42,7 @@ struct InflationResult {
   std::optional<double> filling_time;          // [s]
   std::optional<double> filling_distance;      // over the nominal diameter
   std::optional<double> growth_exponent;       // j of area = (t / t_f)^j
+  std::optional<bool> filled;                  // of a coupled inflation from a folded start
   std::optional<double> end_speed, end_angle;  // of a payload that flies [m/s], of its path [deg]
   std::optional<double> height_lost;           // by it since deployment [m]
   LoadSource source;
@@ -85,6 +86,7 @@ void each_member(T& r, Visit&& visit) {
   visit("filling_time_s", r.filling_time);
   visit("filling_distance_diameters", r.filling_distance);
   visit("area_growth_exponent", r.growth_exponent);
+  visit("filled", r.filled);
   visit("settling_time_s", r.summary.settling_time);
   visit("steady_load_n", r.steady_load, or_null);
   visit("last_load_n", r.summary.last_load);

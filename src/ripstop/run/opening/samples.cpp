@@ -29,6 +29,7 @@ std::optional<Statistic> statistic_of(const std::vector<std::optional<double>>& 
     if (value) there.push_back(*value);
   if (there.empty()) return {};
   Statistic s;
+  s.openings = static_cast<int>(there.size());
   for (const double value : there) s.mean += value / double(there.size());
   double squares = 0;
   for (const double value : there) squares += (value - s.mean) * (value - s.mean);
@@ -36,6 +37,35 @@ std::optional<Statistic> statistic_of(const std::vector<std::optional<double>>& 
   const auto [lowest, highest] = std::minmax_element(there.begin(), there.end());
   s.lowest = *lowest, s.highest = *highest;
   return s;
+}
+
+void summarise_samples(const std::vector<std::string>& texts, SampleSummary& summary) {
+  std::vector<nlohmann::json> results;
+  for (const std::string& text : texts) results.push_back(nlohmann::json::parse(text));
+  const auto over_all = [&](const char* key) {
+    std::vector<std::optional<double>> values;
+    for (const nlohmann::json& result : results) values.push_back(number_of(result, key));
+    return statistic_of(values);
+  };
+  summary.peak_load = over_all("peak_load_n"), summary.smooth_peak = over_all("low_pass_peak_load_n");
+  summary.filling_time = over_all("filling_time_s");
+  summary.filling_distance = over_all("filling_distance_diameters");
+  summary.opening_force_coefficient = over_all("opening_force_coefficient");
+  summary.finite_mass_factor = over_all("finite_mass_factor");
+  const auto warn_of = [&](const char* key, const char* meaning) {
+    std::string names;
+    int count = 0;
+    for (std::size_t n = 0; n < results.size(); ++n) {
+      const auto found = results[n].find(key);
+      if (found == results[n].end() || !found->is_boolean() || found->get<bool>()) continue;
+      names += (count++ ? ", " : "") + summary.folders[n];
+    }
+    if (count > 0)
+      summary.warnings.push_back(
+          fmt::format("{} of {} openings {}: {}", count, results.size(), meaning, names));
+  };
+  warn_of("filled", "ended before the canopy had filled; increase the duration");
+  warn_of("usable", "must not be used, see their warnings");
 }
 
 std::string to_json(const SampleSummary& summary) {
@@ -56,7 +86,7 @@ SampleSummary run_samples(const InflationFolderSettings& settings, const Setting
   make_results_folder(settings.run.folder);
   SampleSummary summary;
   summary.title = resolved.title(), summary.samples = samples;
-  std::vector<nlohmann::json> results;
+  std::vector<std::string> results;
   for (int seed = 1; seed <= samples; ++seed) {
     InflationFolderSettings one = settings;
     const std::string name = fmt::format("sample-{:03}", seed);
@@ -64,18 +94,9 @@ SampleSummary run_samples(const InflationFolderSettings& settings, const Setting
     one.keep_end = false;
     open(one, with_seed(resolved, seed));
     summary.folders.push_back(name);
-    results.push_back(nlohmann::json::parse(finished_result(one.run.folder).value()));
+    results.push_back(finished_result(one.run.folder).value());
   }
-  const auto over_all = [&](const char* key) {
-    std::vector<std::optional<double>> values;
-    for (const nlohmann::json& result : results) values.push_back(number_of(result, key));
-    return statistic_of(values);
-  };
-  summary.peak_load = over_all("peak_load_n"), summary.smooth_peak = over_all("low_pass_peak_load_n");
-  summary.filling_time = over_all("filling_time_s");
-  summary.filling_distance = over_all("filling_distance_diameters");
-  summary.opening_force_coefficient = over_all("opening_force_coefficient");
-  summary.finite_mass_factor = over_all("finite_mass_factor");
+  summarise_samples(results, summary);
   write_file(settings.run.folder / "result.json", to_json(summary));
   return summary;
 }

@@ -11,10 +11,12 @@
 namespace ripstop::inline run {
 
 struct Statistic {
+  int openings = 0;                                                  // that have the value
   double mean = 0, standard_deviation = 0, lowest = 0, highest = 0;  // of a sample: divided by n - 1
 };
 template <Of<Statistic> T, class Visit>
 void each_member(T& s, Visit&& visit) {
+  visit("openings", s.openings);
   visit("mean", s.mean);
   visit("standard_deviation", s.standard_deviation);
   visit("lowest", s.lowest);
@@ -30,6 +32,7 @@ struct SampleSummary {
   std::vector<std::string> folders;  // of the openings, in the order of their seeds
   std::optional<Statistic> peak_load, smooth_peak, filling_time, filling_distance, opening_force_coefficient,
       finite_mass_factor;
+  std::vector<std::string> warnings;
 };
 template <Of<SampleSummary> T, class Visit>
 void each_member(T& s, Visit&& visit) {
@@ -42,8 +45,11 @@ void each_member(T& s, Visit&& visit) {
   visit("filling_distance_diameters", s.filling_distance);
   visit("opening_force_coefficient", s.opening_force_coefficient);
   visit("finite_mass_factor", s.finite_mass_factor);
+  visit("warnings", s.warnings);
 }
 std::string to_json(const SampleSummary& summary);
+/// Statistics and warnings of openings from the texts of their result.json; their folders are in the summary.
+void summarise_samples(const std::vector<std::string>& texts, SampleSummary& summary);
 
 /// The case with the folds perturbed by `seed`; by a hundredth of the skirt's folded radius where the case has no
 /// imperfection.
