@@ -96,11 +96,13 @@ sanitize-thread: check-deps  ## All tests under the thread sanitizer
 
 READERS ?=
 SECONDS ?= 60
-fuzz: check-deps  ## Fuzz every reader with coverage, into docs/tables: make fuzz [SECONDS=60] [READERS='case chute']; continues with its corpus
+LONGEST ?= 65536
+FUZZ = fuzz$(if $(FAST),-fast)
+fuzz: check-deps  ## Fuzz every reader with coverage, into docs/tables: make fuzz [SECONDS=60] [READERS='case chute'] [LONGEST=65536] [FAST=1]; continues with its corpus
 	$(call install_missing,$(FUZZ_PACKAGES))
-	@cmake --preset fuzz > /dev/null
-	@cmake --build --preset fuzz -j $(JOBS)
-	@/usr/bin/python3 validation/reliability/fuzz.py --seconds $(SECONDS) --jobs $(JOBS) $(READERS)
+	@cmake --preset $(FUZZ) > /dev/null
+	@cmake --build --preset $(FUZZ) -j $(JOBS) $(if $(READERS),--target $(addprefix fuzz_,$(READERS)))
+	@/usr/bin/python3 validation/reliability/fuzz.py --seconds $(SECONDS) --jobs $(JOBS) --longest $(LONGEST) $(if $(FAST),--fast) $(READERS)
 
 mutants: check-deps  ## Change the sources in some 460 places and count the changes that tests detect, into docs/tables: hours; resumable
 	@/usr/bin/python3 validation/reliability/mutants.py --jobs $(JOBS) $(MUTANTS)

@@ -157,7 +157,8 @@ int compare(CompareArguments& options) {
 void add_compare(CLI::App& app, int& status) {
   auto options = std::make_shared<CompareArguments>();
   CLI::App* command = app.add_subcommand(
-      "compare", "Compare finished runs, a measured load, or the linear material model of a case");
+      "compare",
+      "Compare finished runs, an opening with a measured load, or a case with its linear material model");
   command->footer(
       "With run folders it prints the numbers of their results; --out adds a report with their shapes and "
       "plots.\n"

@@ -82,7 +82,8 @@ int compare(CompareFlightArguments& options) {
 void add_compare_flight(CLI::App& app, int& status) {
   auto options = std::make_shared<CompareFlightArguments>();
   CLI::App* command = app.add_subcommand(
-      "compare-flight", "Drag areas over height, deployments and opening loads from the logs of a flight");
+      "compare-flight",
+      "Determine drag areas over height, deployments and opening loads from the logs of a flight");
   command->footer(
       "A drag area needs a part of the descent at steady speed; +- is one standard deviation, of height and "
       "mass.\n"

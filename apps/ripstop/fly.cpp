@@ -182,11 +182,9 @@ void add_fly(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand(
       "fly", "Compute the free flight of parachute and payload: rate of descent, glide and oscillation");
   command->footer(
-      "The canopy starts in equilibrium on the axis, at the speed at which its drag is the weight, and is "
-      "released "
-      "at an angle. With --deploy or --from the flight continues from the end of a coupled inflation. Air, "
-      "cloth "
-      "and payload are stepped together in time.\n"
+      "The canopy starts in equilibrium on the axis, at the speed at which its drag equals the weight, and\n"
+      "is released at an angle. With --deploy or --from the flight continues from the end of a coupled\n"
+      "inflation. Air, cloth and payload are stepped together in time.\n"
       "Example: ripstop fly examples/flat-circular/case.toml --mass 2.4 --duration 30 --cloth-nodes 2000");
   command->add_option("case", options->case_file, "Case file (TOML)")->required();
   add_key_option(*command, "--mass", "payload.mass_kg", "Mass of the payload, without the parachute [kg]",

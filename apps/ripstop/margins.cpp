@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "ripstop/core/words.h"
 #include "units_option.h"
 
 namespace ripstop::cli {
@@ -36,12 +37,12 @@ void print_margins(const std::optional<Margins>& margins) {
   print_row("utilisation", text);
   if (!margins->weakest.empty()) {
     const Margin& m = *weakest(*margins);
-    print_row(
-        "weakest member",
-        fmt::format(
-            "{}: load {:.4g} {}, strength {:.4g} {}, {:.0f} % of it allowable; margin of safety {:+.2f}{}",
-            m.member, m.load, m.unit, *m.strength, m.unit, 100 * m.knock_down, *m.margin,
-            *m.margin < 0 ? ": ALLOWABLE LOAD EXCEEDED" : ""));
+    print_row("weakest member",
+              fmt::format("{}: load {} {} times safety factor {:.3g}, allowable load {} {} ({:.0f} % of the "
+                          "strength); margin of safety {:+.2f}{}",
+                          m.member, rounded(m.load), m.unit, *m.used * *m.strength * m.knock_down / m.load,
+                          rounded(*m.strength * m.knock_down), m.unit, 100 * m.knock_down, *m.margin,
+                          *m.margin < 0 ? ": ALLOWABLE LOAD EXCEEDED" : ""));
   }
 }
 

@@ -12,6 +12,7 @@
 #include "margins.h"
 #include "number_option.h"
 #include "ripstop/core/error.h"
+#include "ripstop/core/words.h"
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/run/sizing/pattern.h"
 #include "units_option.h"
@@ -31,7 +32,8 @@ struct RecoveryArguments {
 };
 
 std::string range_text(const Ranged& r, const char* unit) {
-  return fmt::format("{:.4g} {}, range {:.4g} to {:.4g} {}", r.value, unit, r.low, r.high, unit);
+  return fmt::format("{} {}, range {} to {} {}", rounded(r.value), unit, rounded(r.low), rounded(r.high),
+                     unit);
 }
 
 void print_stage(const RecoveryStage& s) {
@@ -39,11 +41,11 @@ void print_stage(const RecoveryStage& s) {
   print_row("drag", fmt::format("C_D {:.3f} +- {:.0f} % on S0 = {:.4g} m2, drag area {:.4g} m2: {}",
                                 s.drag_coefficient, 100 * s.drag_uncertainty, s.reference_area,
                                 s.drag_coefficient * s.reference_area, s.drag_source));
-  print_row("opening", fmt::format("{:.2f} s after apogee, {:.4g} m above the ground, at {}", s.time,
-                                   s.height, range_text(s.speed, "m/s")));
-  print_row("opening load", fmt::format("{:.4g} to {:.4g} N by the applicable methods; filling time {:.3g} s",
-                                        s.lowest_load, s.highest_load, s.filling_time));
-  print_row("design load", fmt::format("{:.4g} N: {}", s.design_load, s.design_load_from));
+  print_row("opening", fmt::format("{:.2f} s after apogee, {} m above the ground, at {}", s.time,
+                                   rounded(s.height), range_text(s.speed, "m/s")));
+  print_row("opening load", fmt::format("{} to {} N by the applicable methods; filling time {:.3g} s",
+                                        rounded(s.lowest_load), rounded(s.highest_load), s.filling_time));
+  print_row("design load", fmt::format("{} N: {}", rounded(s.design_load), s.design_load_from));
   print_margins(s.margins);
   print_row("fastest safe deployment", safe_speed_text(s.safe));
   print_row("descent rate at the end", range_text(s.descent_rate, "m/s"));
@@ -64,9 +66,9 @@ void print_result(const RecoveryResult& r, const fs::path& folder) {
     print_row("", fmt::format("section of {:.4g} kg: {}", section.mass, range_text(section.energy, "J")));
   print_row("time since apogee", range_text(r.time, "s"));
   print_row("drift with the wind", r.wind > 0 ? range_text(r.drift, "m") : "no wind given (--wind)");
-  print_row("path in still air", fmt::format("{:.4g} m along the flight direction at apogee", r.range));
+  print_row("path in still air", fmt::format("{} m along the flight direction at apogee", rounded(r.range)));
   print_text(
-      "Ranges: drag coefficients of both parachutes smaller or larger by their uncertainty.\n"
+      "Ranges: the drag coefficients of all parachutes are decreased and increased by their uncertainty.\n"
       "{} (report.html, height.png, speed.png, trajectory.csv, result.json)\n",
       folder.string());
 }
@@ -125,8 +127,8 @@ void add_recovery(CLI::App& app, int& status) {
       "Compute the recovery of a rocket from apogee: openings, loads, margins, rates, drift, landing energy");
   command->footer(
       "Example: ripstop recovery main.toml --drogue drogue.toml --mass 22 --apogee 3000 --main-height 300 "
-      "--wind 5\n"
-      "         --bay-diameter '5.9 in' --units us");
+      "--wind 5 \\\n"
+      "           --bay-diameter '5.9 in' --units us");
   command->add_option("case", options->main_case, "Case file of the main, or of the only parachute (TOML)")
       ->required();
   CLI::Option* drogue =

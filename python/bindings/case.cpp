@@ -177,25 +177,24 @@ void add_case(py::module_& module) {
   type.def("__repr__", [](const PyCase& self) {
     return "<ripstop.Case " + py::repr(py::str(self.given.title)).cast<std::string>() + ">";
   });
-  type.def(py::pickle(
-      [](const PyCase& self) {
-        py::list set;
-        for (const Setting& s : self.set) set.append(py::make_tuple(s.key, s.value, s.option));
-        return py::make_tuple(self.text, self.name, self.file.string(), set);
-      },
-      [](const py::tuple& state) {
-        PyCase made;
-        made.text = state[0].cast<std::string>();
-        made.name = state[1].cast<std::string>();
-        made.file = state[2].cast<std::string>();
-        for (const py::handle item : state[3].cast<py::list>()) {
-          const auto part = item.cast<std::tuple<std::string, std::string, std::string>>();
-          made.set.push_back(
-              {std::get<0>(part), std::get<1>(part), std::get<2>(part), std::get<1>(part).empty()});
-        }
-        parse(made);
-        return made;
-      }));
+  // For pickle, which would otherwise call __new__.
+  type.def("__reduce__", [](const py::object& self) {
+    const auto& given = self.cast<const PyCase&>();
+    py::list set;
+    for (const Setting& s : given.set) set.append(py::make_tuple(s.key, s.value, s.option));
+    return py::make_tuple(py::module_::import("ripstop").attr("_restored_case"),
+                          py::make_tuple(given.text, given.name, given.file.string(), set));
+  });
+  type.def_static("_restored", [](const std::string& text, const std::string& name, const std::string& file,
+                                  const std::vector<std::tuple<std::string, std::string, std::string>>& set) {
+    PyCase made;
+    made.text = text;
+    made.name = name;
+    made.file = file;
+    for (const auto& [key, value, option] : set) made.set.push_back({key, value, option, value.empty()});
+    parse(made);
+    return made;
+  });
   module.def("read_case", &read, py::arg("file"), py::kw_only(), py::arg("set") = py::dict(),
              "Reads a case file (TOML), as Case.read() does. Keys in `set` replace those of the file.");
 }

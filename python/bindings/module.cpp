@@ -26,6 +26,17 @@ py::object plain_of(const std::string& json) {
   return py::module_::import("json").attr("loads")(json);
 }
 
+/// An object without a constructor has no data, and its attributes would be those of unrelated memory.
+void refuse_new(const py::module_& module) {
+  for (const auto& [name, member] : module.attr("__dict__").cast<py::dict>()) {
+    if (!PyType_Check(member.ptr()) || PyObject_IsSubclass(member.ptr(), PyExc_BaseException) != 0) continue;
+    const auto text = name.cast<std::string>() + " objects are results of the functions of ripstop";
+    const py::cpp_function refuse(
+        [text](const py::args&, const py::kwargs&) -> py::object { throw py::type_error(text); });
+    py::setattr(member, "__new__", py::module_::import("builtins").attr("staticmethod")(refuse));
+  }
+}
+
 void Listener::listen() {
   constexpr std::chrono::milliseconds often{50};  // functions that a user calls directly
   const Clock::time_point now = Clock::now();
@@ -65,5 +76,6 @@ PYBIND11_MODULE(_ripstop, module) {
   add_sweep(module);
   add_report(module);
   add_engines(module);
+  refuse_new(module);
   module.attr("__name__") = own_name;
 }

@@ -33,6 +33,8 @@ void add_fabric(py::module_& module);
 void add_sweep(py::module_& module);
 void add_report(py::module_& module);
 void add_engines(py::module_& module);
+/// Lets __new__ of every class raise TypeError.
+void refuse_new(const py::module_& module);
 
 /// A case with the text that it was read from, so that any key can be set anew as --set does.
 struct PyCase {

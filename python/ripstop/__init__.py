@@ -21,6 +21,12 @@ from ._ripstop import __version__
 
 __all__ = [name for name in dir(_ripstop) if not name.startswith("_")]
 
+
+def _restored_case(*state):
+    """A case from its pickle."""
+    return _ripstop.Case._restored(*state)
+
+
 # A wheel contains materials and examples; an installed or built library finds its own.
 _data = pathlib.Path(__file__).parent / "data"
 if _data.is_dir():

@@ -70,7 +70,7 @@ TEST_F(Check, ReportsTheTapeForTheLoadAndItsShareOfTheMass) {
             std::string::npos)
       << slow.output;
   EXPECT_NE(fast.output.find(
-                "parachute.tape.material      nylon-tape-200-lbf  the lightest tape that carries a line's "),
+                "parachute.tape.material      nylon-tape-200-lbf  the lightest tape that carries the "),
             std::string::npos)
       << fast.output;
   EXPECT_NE(fast.output.find("when it opens at 100 m/s"), std::string::npos) << fast.output;

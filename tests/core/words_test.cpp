@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace ripstop {
 namespace {
 
@@ -34,6 +36,18 @@ TEST(Words, AKeyAndItsValueAreAPhrase) {
   EXPECT_EQ(in_words("coupling.linear", "false"), "nonlinear cloth");
   EXPECT_EQ(in_words("parachute.vent_diameter_m", "0.09"), "vent diameter 0.09 m");
   EXPECT_EQ(in_words("parachute.tape.inner_hems", "false"), "no inner hems");
+}
+
+TEST(Words, ARoundedNumberHasNoExponentBelow1e15) {
+  EXPECT_EQ(rounded(10676.3), "10680");
+  EXPECT_EQ(rounded(-10676.3, 3), "-10700");
+  EXPECT_EQ(rounded(9999.96), "10000");
+  EXPECT_EQ(rounded(0), "0");
+  EXPECT_EQ(rounded(6672.3, 3), "6670");
+  EXPECT_EQ(rounded(19.3), "19.3");
+  EXPECT_EQ(rounded(3e-7), "3e-07");
+  EXPECT_EQ(rounded(2.5e15), "2.5e+15");
+  EXPECT_EQ(rounded(HUGE_VAL), "inf");
 }
 
 }  // namespace

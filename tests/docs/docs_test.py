@@ -124,6 +124,16 @@ class Docs(unittest.TestCase):
                           if not any(fnmatch.fnmatchcase(name, pattern) for name in tests[room])]
         self.assertEqual(wrong, [])
 
+    def test_every_label_of_studio_that_a_page_names_exists(self):
+        shown = "\n".join(file.read_text() for file in sorted((ROOT / "src/ripstop/studio/page").glob("*.*")))
+        keys = (ROOT / "examples/case.schema.json").read_text()
+        pages = [ROOT / "docs/tutorials/7-design-in-the-browser.md", ROOT / "docs/guide/studio.md"]
+        labels = [(page, label) for page in pages for label in re.findall(r"(?<!\*)\*([^*\n]+)\*(?!\*)", page.read_text())]
+        self.assertGreater(len(labels), 30)
+        self.assertEqual([f"{at(page, 0)} {label}" for page, label in labels
+                          if not re.search(rf"[\"'>`]{re.escape(label)}(?!\w)", shown)  # a text of the page
+                          and not re.search(rf'"{label.strip("[]").split(".")[-1].replace(" ", "_")}(?:_m)?": ', keys)], [])  # the name of a key
+
     def test_the_citation_has_the_version_of_the_project(self):
         version = re.search(r"project\(ripstop VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
         self.assertRegex((ROOT / "CITATION.cff").read_text(), rf"(?m)^version: {re.escape(version)}$")

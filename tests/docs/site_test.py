@@ -99,6 +99,20 @@ class Site(unittest.TestCase):
         self.assertIn("Free flight: ripstop fly", titles)
         self.assertEqual([title for title in titles if "`" in title], [])
 
+    def test_every_class_of_a_public_header_is_in_the_interface(self):
+        pages = "\n".join(page.name for page in (self.site / "docs/reference/cpp").glob("*.html"))
+        excluded = re.search(r"^EXCLUDE = (.*)", (ROOT / "docs/site/Doxyfile").read_text(), re.MULTILINE)[1].split()
+        named, missing = 0, []
+        for header in sorted((ROOT / "src/ripstop").rglob("*.h")):
+            text = "" if str(header.relative_to(ROOT)) in excluded else header.read_text()
+            for name in re.findall(r"^(?:class|struct) (\w+)(?: final)?(?: : [^;{]*)? \{", text, re.MULTILINE):
+                named += 1
+                page = name.replace("_", "__")
+                if not re.search(rf"^(?:class|struct|union)ripstop(?:_1_1\w+?)??_1_1{page}\.html$", pages, re.MULTILINE):
+                    missing.append(f"{header.relative_to(ROOT)}: {name}")
+        self.assertGreater(named, 300)
+        self.assertEqual(missing, [])
+
     def test_search_finds_a_page_without_a_server(self):
         self.open("index.html")
         self.browser.evaluate("document.querySelector('[data-md-toggle=search]').checked = true, document.querySelector('[data-md-component=search-query]').focus()")

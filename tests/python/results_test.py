@@ -1,6 +1,7 @@
 """Cases, errors and results without a coupled run: they have the numbers and texts of the program."""
 import copy
 import gc
+import inspect
 import json
 import pathlib
 import pickle
@@ -111,6 +112,17 @@ class Cases(unittest.TestCase):
             self.assertEqual(other.get("flow.speed_m_s"), 20)
             other.set("flow.speed_m_s", 8)
         self.assertEqual(case.get("flow.speed_m_s"), 7)
+
+    def test_an_object_cannot_be_made_without_its_function(self):
+        classes = [member for name in ripstop.__all__ for member in [getattr(ripstop, name)]
+                   if inspect.isclass(member) and not issubclass(member, Exception) and member.__module__ == "ripstop"]
+        self.assertGreater(len(classes), 40)
+        for made in (lambda one: one.__new__(one), lambda one: one(), lambda one: object.__new__(one)):
+            for one in classes:
+                with self.subTest(one.__name__), self.assertRaises(TypeError):
+                    made(one)
+        with self.assertRaises(TypeError):
+            copy.copy(ripstop.check(small.case()))
 
     def test_another_size_scales_the_area_by_the_square(self):
         case = small.case()

@@ -348,6 +348,40 @@ TEST(RunNumbers, FoldsWithBothLayersBetweenTheSameCellCentresAreRefused) {
   EXPECT_NO_THROW(make({64, 64, 80}));
 }
 
+// Values that were not finite have been used as the number of a cell or as a size here: large and light canopies at
+// high speed, and stiff lines.
+TEST(RunNumbers, OfLargeFastOpeningsWithStiffLinesAreFinite) {
+  struct Drop {
+    double diameter, mass, speed;
+    const char* line;
+  };
+  for (const Drop& drop : {Drop{8.5, 310, 40, "spectra-line"}, Drop{11.4, 120, 40, "spectra-line-1000-lbf"},
+                           Drop{20, 310, 20, "aramid-line-1000-lbf"}}) {
+    SCOPED_TRACE(drop.diameter);
+    Case given = flat_circular_case(drop.diameter, 2000, drop.speed);
+    given.parachute.canopy_material = "f-111-physical";
+    given.parachute.lines.material = drop.line;
+    given.parachute.mesh.line_segment_m = drop.diameter / 20;
+    given.flow.cells = {40, 40, 50};
+    given.payload.mass_kg = drop.mass;
+    given.inflation.air = AirModel::coupled;
+    given.inflation.mass = InflationSettings::Mass::payload;
+    given.inflation.initial_radius_m = 0.1 * drop.diameter;
+    given.inflation.duration_s = 0.004;
+    given.inflation.frames = 4;
+    const Settings resolved = resolve(opening_case(checked(given)));
+    const LoadSource source = load_source(resolved);
+    InflationObserver quiet;
+    const auto [r, state, history] =
+        run_inflation(resolved, source, opening_problem(resolved, source, 1), quiet);
+    EXPECT_NEAR(history.rows.back().time, 0.004, 1e-3);
+    for (const HistoryRow& row : history.rows) ASSERT_TRUE(std::isfinite(row.largest)) << row.time;
+    EXPECT_GT(r.peak_load, 0);
+    EXPECT_LT(r.energy_residual, 0.05);
+    EXPECT_GT(state.step, 0);
+  }
+}
+
 // The estimate of --check: cloth predicted and corrected, and steps of the air in all its cells.
 TEST(RunNumbers, TheTimeOfACoupledInflationCountsTheFlowAndItsCellsAreCheckedFirst) {
   Case given = small_opening_in_air();

@@ -12,6 +12,7 @@
 #include "ripstop/case/cost.h"
 #include "ripstop/case/deployment.h"
 #include "ripstop/core/error.h"
+#include "ripstop/core/words.h"
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/fsi/pressure.h"
 
@@ -92,7 +93,8 @@ LoadSource load_source(const Settings& opening) {
   const double speed = opening.flow().speed_m_s;
   const double q = 0.5 * opening.flow().density_kg_m3 * speed * speed;
   const double drag = *inflation.drag_coefficient * nominal_area(opening.parachute()) * q;
-  return {fmt::format("C_D = {:g} at {:g} m/s: {:.4g} N", *inflation.drag_coefficient, speed, drag), drag};
+  return {fmt::format("C_D = {:g} at {:g} m/s: {} N", *inflation.drag_coefficient, speed, rounded(drag)),
+          drag};
 }
 
 InflationProblem opening_problem(const Settings& opening, const LoadSource& source, int threads,

@@ -7,6 +7,7 @@
 
 #include "ripstop/case/payload.h"
 #include "ripstop/core/error.h"
+#include "ripstop/core/words.h"
 #include "ripstop/flight/descent.h"
 #include "ripstop/parachute/cut.h"
 
@@ -46,11 +47,10 @@ TapeMaterial tape_for(const Case& given, double line_load) {
   line_load = std::max(1e-9, line_load);  // mistakes of air and area are reported elsewhere
   const std::optional<double> hem = used_of_hem(given, line_load);
   if (hem && *hem <= 1 && !slots_need_tape(given.parachute))
-    return {
-        no_tape,
-        fmt::format("a hem of {:g} mm of the cloth carries the {:.3g} N of one line (utilisation {:.0f} %)",
-                    1000 * hem_width, line_load, 100 * *hem),
-        *hem};
+    return {no_tape,
+            fmt::format("a hem of {:g} mm of the cloth carries the {} N of one line (utilisation {:.0f} %)",
+                        1000 * hem_width, rounded(line_load, 3), 100 * *hem),
+            *hem};
   const Tape *lightest = nullptr, *strongest = nullptr;
   double least_used = 0;
   for (const auto& [name, material] : given.materials) {
@@ -66,9 +66,9 @@ TapeMaterial tape_for(const Case& given, double line_load) {
   const Tape& chosen = lightest ? *lightest : *strongest;
   const double used = *used_of_tape(given, line_load, chosen);
   return {chosen.name,
-          fmt::format("{} a line's {:.3g} N (utilisation {:.0f} %)",
+          fmt::format("{} the {} N of one line (utilisation {:.0f} %)",
                       lightest ? "the lightest tape that carries" : "the strongest tape, too weak for",
-                      line_load, 100 * used),
+                      rounded(line_load, 3), 100 * used),
           used};
 }
 

@@ -259,7 +259,7 @@ void check_cells(const Case& given, const FlowSettings& flow, Findings& findings
     if (across < fewest_cells_across)
       findings.add(fmt::format("flow.cells[{}]", i), cells[i],
                    fmt::format("at least {:.0f}", std::ceil(cells[i] * fewest_cells_across / across)),
-                   fmt::format("only {:.2g} cells across the diameter of the canopy; at least {} are "
+                   fmt::format("only {:.3g} cells across the diameter of the canopy; at least {} are "
                                "required to represent a canopy",
                                across, fewest_cells_across));
   }

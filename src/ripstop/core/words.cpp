@@ -1,6 +1,9 @@
 #include "ripstop/core/words.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <string_view>
 
@@ -195,6 +198,13 @@ std::string in_words(const std::string& key, const std::string& value) {
   const Wording words = in_words(key);
   if (value == "true" || value == "false") return (value == "true" ? "" : "no ") + words.text;
   return words.text + " " + value + (words.unit.empty() ? "" : " " + words.unit);
+}
+
+std::string rounded(double value, int digits) {
+  if (!(std::fabs(value) >= std::pow(10, digits) - 0.5 && std::fabs(value) < 1e15))
+    return fmt::format("{:.{}g}", value, digits);
+  const double step = std::pow(10, std::floor(std::log10(std::fabs(value))) + 1 - digits);
+  return fmt::format("{:.0f}", std::round(value / step) * step);
 }
 
 }  // namespace ripstop

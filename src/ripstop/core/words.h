@@ -17,5 +17,7 @@ struct Wording {
 Wording in_words(const std::string& key);
 /// A key and its value: "linear cloth", "vent diameter 0.09 m", "cells [50,50,75]".
 std::string in_words(const std::string& key, const std::string& value);
+/// Rounded to `digits` significant digits, without an exponent below 1e15: "10680" for 10676.3.
+std::string rounded(double value, int digits = 4);
 
 }  // namespace ripstop

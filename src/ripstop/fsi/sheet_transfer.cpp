@@ -93,7 +93,7 @@ std::vector<Sample> samples_of(const std::vector<SheetLoad>& loads, const std::v
 /// Samples by where they lie, in boxes of `width` about the sheet.
 class Boxes {
  public:
-  Boxes(std::vector<Sample> samples, double width) : width_(width) {
+  Boxes(const std::vector<Sample>& samples, double width) : width_(width) {
     Vec3 high{-1e300, -1e300, -1e300};
     low_ = {1e300, 1e300, 1e300};
     for (const Sample& s : samples) {
@@ -205,7 +205,7 @@ std::vector<double> pressures(const std::vector<Sample>& samples, const FlowGrid
   std::vector<Sample> believed;
   for (const Sample& s : samples)
     if (!s.folded) believed.push_back(s);
-  const Boxes boxes(believed.empty() ? samples : std::move(believed), box);
+  const Boxes boxes(believed.empty() ? samples : believed, box);
   for (std::size_t c = 0; c < result.size(); ++c) {
     const double area = norm(cloth.area[c]);
     if (!(area > 0)) continue;

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <string>
 
+#include "ripstop/core/words.h"
+
 namespace ripstop::inline run {
 
 Margins case_margins(const Settings& resolved, const CanopyMesh& mesh,
@@ -83,10 +85,11 @@ std::vector<std::string> margin_warnings(const std::optional<Margins>& margins) 
   if (!margins) return all;
   for (const Margin& m : weakest_of_kinds(*margins))
     if (m.margin && *m.margin < 0)
-      all.push_back(fmt::format(
-          "the {} exceeds its allowable load: its load of {:.4g} {} with the safety factor is {:.3g} "
-          "times the allowable {:.4g} {} (margin of safety {:+.2f}); use a stronger material",
-          m.member, m.load, m.unit, *m.used, *m.strength * m.knock_down, m.unit, *m.margin));
+      all.push_back(
+          fmt::format("{} exceeds its allowable load: its load of {} {} with the safety factor is {} "
+                      "times the allowable {} {} (margin of safety {:+.2f}); use a stronger material",
+                      m.member, rounded(m.load), m.unit, rounded(*m.used, 3),
+                      rounded(*m.strength * m.knock_down), m.unit, *m.margin));
   return all;
 }
 

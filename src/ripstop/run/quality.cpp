@@ -29,6 +29,8 @@ const std::vector<QualityLimit>& quality_limits() {
        " % of the weight", "use finer cells (flight.cells_across)"},
       {"start_strain", "strain of the folded start", 1e-3, 0.02, false, 100, " %",
        "change inflation.initial_radius_m or inflation.folds"},
+      {"peak_after_start_up", "time of the peak load over that of the end of the start-up", 2, 1.1, true, 1,
+       "", "the peak is a part of the impulsive start of the air; use a smaller inflation.initial_radius_m"},
       {"pierced_edges", "share of cloth edges that pierce cloth", 0.02, never, false, 100, " %",
        "raise inflation.contact_pa or parachute.mesh.cloth_nodes"},
       {"contact_depth", "compression of layers of cloth in contact", 0.6, never, false, 100,

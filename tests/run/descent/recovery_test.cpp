@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -104,6 +105,25 @@ TEST(Recovery, ADrogueThatOpensSlowerThanItDescendsCarriesTheWeight) {
   slow.speed = 2, slow.delay = 0.5;
   const RecoveryStage drogue = run_recovery(canopy(3.5), canopy(0.7), slow).stages[0];
   EXPECT_GT(drogue.design_load, 0.99 * 22 * standard_gravity);
+}
+
+bool warns_of(const RecoveryResult& r, const char* text) {
+  return std::any_of(r.warnings.begin(), r.warnings.end(),
+                     [&](const std::string& warning) { return warning.find(text) != std::string::npos; });
+}
+
+TEST(Recovery, WarnsOfAnOpeningBeyondTheRangeOfTheLoadModel) {
+  RecoveryRequest high = request();
+  high.apogee = 60000, high.delay = 100;
+  EXPECT_TRUE(warns_of(run_recovery(canopy(3.5), {}, high), "main: Mach number of"));
+  EXPECT_FALSE(warns_of(run_recovery(canopy(3.5), canopy(0.7), request()), "Mach number"));
+}
+
+TEST(Recovery, WarnsOfAMainThatIsNotFilledAtTheGround) {
+  RecoveryRequest low = request();
+  low.main_height = 3;
+  EXPECT_TRUE(warns_of(run_recovery(canopy(3.5), canopy(0.7), low), "main: it opens too low"));
+  EXPECT_FALSE(warns_of(run_recovery(canopy(3.5), canopy(0.7), request()), "opens too low"));
 }
 
 TEST(Recovery, AMainAboveTheApogeeAndADelayToTheGroundAreRefused) {

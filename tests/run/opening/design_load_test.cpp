@@ -94,7 +94,7 @@ TEST(DesignLoad, LinesThatDoNotHoldItAreAWarningInWords) {
   const LoadResult r = run_load(resolve(given), drop(100, 60));
   ASSERT_TRUE(r.margins);
   EXPECT_EQ(r.margins->weakest, "line");
-  EXPECT_TRUE(mentions(r.warnings, "the line exceeds its allowable load"));
+  EXPECT_TRUE(mentions(r.warnings, "line exceeds its allowable load"));
 }
 
 // A steady run of the example has 1.43 times the mean tension in the lines at the corners of a cross.

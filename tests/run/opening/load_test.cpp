@@ -243,6 +243,14 @@ TEST(Load, ReefingInStagesLowersTheHighestLoad) {
   EXPECT_FALSE(method(r.stages[2], "Pflanz").applies);
 }
 
+TEST(Load, OfAStageThatIsCutBeforeItHasFilledOnlyTheTrajectoryApplies) {
+  LoadRequest asked = request(8, 25);
+  asked.reefing = {{0.1, 0.05}};
+  const StageLoads stage = run_load(resolve(flat_circular()), asked).stages[0];
+  ASSERT_GT(stage.filling_time, 0.05);
+  for (const MethodLoad& m : stage.methods) EXPECT_EQ(m.applies, m.method == "trajectory") << m.method;
+}
+
 TEST(Load, WithASnatchSpeedHasTheSnatchLoad) {
   LoadRequest asked = request();
   EXPECT_FALSE(run_load(resolve(flat_circular()), asked).snatch);

@@ -78,7 +78,7 @@ TEST(SizeChoices, WithoutASufficientLineTheStrongestIsUsedWithAWarning) {
   EXPECT_GT(r.line_used, 1);
   EXPECT_GT(r.tape_used, 1);
   ASSERT_GT(r.warnings.size(), 1u);
-  EXPECT_EQ(r.warnings[0].find("the line exceeds its allowable load"), 0u) << r.warnings[0];
+  EXPECT_EQ(r.warnings[0].find("line exceeds its allowable load"), 0u) << r.warnings[0];
   EXPECT_TRUE(std::any_of(r.warnings.begin(), r.warnings.end(), [](const std::string& text) {
     return text.starts_with("the tape exceeds its allowable load");
   }));

@@ -65,6 +65,9 @@ TEST(StabilityCases, RejectsFlowsThatAStreamAtAnAngleCannotHave) {
               f.tunnel.width_m = 2;
             }).find("flow.tunnel.kind"),
             std::string::npos);
+  Case with_body = good;
+  with_body.bodies["rocket"];
+  EXPECT_NE(refusal_of([&] { stability_cases(with_body, {0}); }).find("body.rocket"), std::string::npos);
 }
 
 StabilityRow row_at(double angle, double c_m, double error = 0.001) {

@@ -14,6 +14,8 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/positive.h"
+#include "ripstop/flight/atmosphere.h"
+#include "ripstop/flight/validity.h"
 #include "ripstop/flight/wind.h"
 #include "ripstop/output/csv.h"
 #include "ripstop/output/plot.h"
@@ -37,6 +39,7 @@ struct RecoveryCanopy {
 struct FlownStage {
   FlightState opening;
   LoadResult load;        // of run_load() there
+  bool filled = true;     // before the next opening or the ground
   double peak_force = 0;  // on its canopy along the trajectory [N]
   double end_speed = 0, duration = 0, drift = 0;
 };
@@ -111,6 +114,7 @@ class RecoveryFlight {
     const std::size_t first = flown_.rows.size();
     append({[=](double t, double s) { return others + own(t, s); }, settled,
             opening.filling_time / steps_of_filling, ground});
+    stage.filled = state_.time - begin >= opening.filling_time;
     if (state_.height > ground) {
       const double area = opening.drag_area;
       append({[=](double, double) { return others + area; }, longest_descent, slow_step, ground});
@@ -185,6 +189,14 @@ RecoveryStage stage_of(const RecoveryCanopy& canopy, std::size_t i, const std::v
     s.bay_length = s.packed_volume / (std::numbers::pi / 4 * *request.bay_diameter * *request.bay_diameter);
   for (const std::string& text : margin_warnings(s.margins))
     warnings.push_back(fmt::format("{}: {}", canopy.name, text));
+  for (const std::string& text :
+       outside_range(infinite_mass_model,
+                     {{"Mach number", s.speed.high / standard_air(flown.opening.height).sound_speed}}))
+    warnings.push_back(fmt::format("{}: {}", canopy.name, text));
+  if (!flown.filled)
+    warnings.push_back(fmt::format("{}: it opens too low: it is not filled after {:.3g} s, when {}",
+                                   canopy.name, flown.duration,
+                                   i + 1 < flights[0].stages.size() ? "the main opens" : "the rocket lands"));
   if (s.safe.lowest && s.speed.high > *s.safe.lowest)
     warnings.push_back(
         fmt::format("{}: it opens at up to {:.1f} m/s; the fastest safe deployment is {:.1f} "

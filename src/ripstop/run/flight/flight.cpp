@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "ripstop/case/assemble.h"
+#include "ripstop/case/bodies.h"
 #include "ripstop/case/payload.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
@@ -255,10 +256,14 @@ InflationObserver& FlightObserver::opening() {
 }
 
 Settings flight_settings(const Case& given, const fs::path& from) {
-  if (from.empty()) return resolve(flight_case(given));
+  const auto alone = [](Settings flight) {
+    require_canopy_alone(flight, "a flight");
+    return flight;
+  };
+  if (from.empty()) return alone(resolve(flight_case(given)));
   const Settings opening = settings_of_run(from);
   require_same_parachute(opening, from.string(), resolve(opening_case(given)));
-  return resolve(continued_case(given, opening));
+  return alone(resolve(continued_case(given, opening)));
 }
 
 FlightSolution run_flight(const Settings& resolved, int threads, FlightObserver& observer,

@@ -173,8 +173,7 @@ FastestResult run_fastest(const Settings& resolved, LoadRequest request, double 
   if (r.design().unsafe_at)
     r.warnings.push_back(
         fmt::format("no deployment is safe by the method {}: at {:.3g} m/s, about the rate of descent, the "
-                    "{} has not its "
-                    "margin; use stronger parts",
+                    "{} does not keep its margin; use stronger parts",
                     r.design_method, slowest, r.design().member));
   return r;
 }

@@ -4,6 +4,7 @@
 
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
+#include "ripstop/core/words.h"
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/run/opening/load.h"
 
@@ -40,12 +41,12 @@ std::optional<std::string> handbook_disagreement(double computed, std::optional<
   if (!above && !below) return {};
   const MethodLoad& nearest = above ? *highest : *lowest;
   return fmt::format(
-      "the computed opening load of {:.4g} N is {:.2g} times the {} finite-mass handbook load ({}: {:.4g} "
-      "N). The "
+      "the computed opening load of {} N is {:.2g} times the {} finite-mass handbook load ({}: {} N). The "
       "handbook methods assume a filling distance that was measured on larger and faster canopies{}. The "
       "filling time depends on the deployment; design for the highest of these loads unless the load of your "
       "parachute is measured",
-      computed, computed / nearest.load, above ? "highest" : "lowest", nearest.method, nearest.load,
+      rounded(computed), computed / nearest.load, above ? "highest" : "lowest", nearest.method,
+      rounded(nearest.load),
       distance
           ? fmt::format("; the computed opening reaches its peak after {:.2g} nominal diameters", *distance)
           : "");

@@ -54,6 +54,7 @@ std::vector<double> line_peaks(const std::optional<std::vector<StageSummary>>& s
 // does: the share of a nominal diameter that the stream travels until then. The transients seen ended within 0.03; the
 // earliest peak of an opening came after 1.2 (docs/theory/inflation.md).
 constexpr double start_up_diameters = 0.1;
+constexpr double start_ups_of_a_run = 3;  // in a shorter one the opening may not have had its peak yet
 
 double start_up_of(const Settings& resolved, const Opening& solver) {
   return solver.air()
@@ -161,6 +162,10 @@ void take_quality(InflationResult& r, const Settings& resolved, const Opening& s
     r.momentum_residual = gap / r.peak_load, r.cells_across = cells_across(resolved);
     values.insert(values.end(),
                   {{"momentum_residual", *r.momentum_residual}, {"cells_across", *r.cells_across}});
+    const double peak_time = r.smooth_peak_time.value_or(r.peak_time);
+    if (r.start_up_time && !history.rows.empty() &&
+        history.rows.back().time > start_ups_of_a_run * *r.start_up_time)
+      values.push_back({"peak_after_start_up", peak_time / *r.start_up_time});
   }
   Judgement judgement = judge(values);
   judgement.add(margin_warnings(r.margins));

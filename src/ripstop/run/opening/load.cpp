@@ -220,6 +220,9 @@ void fly_stages(const LoadRequest& request, LoadResult& r) {
     leg.step = stage.filling_time / steps_a_filling;
     leg.ground = request.ground;
     const FlightRow peak = append(r.flight, fly(state, mass, leg));
+    if (reefed.duration < stage.filling_time)
+      for (MethodLoad& m : stage.methods)
+        m.applies = false, m.note = "assumes a filled canopy; this reefing line is cut before";
     stage.methods.push_back(
         {"trajectory", peak.force, peak.state.time - stage.begin, stage.outside.empty(),
          stage.outside.empty() ? "with gravity and the standard atmosphere" : stage.outside});

@@ -57,6 +57,7 @@ Mean mean_of(const FlowRecord& record, const std::vector<Coefficients>& steps, d
 }
 
 void check_flow(const Settings& resolved) {
+  require_canopy_alone(resolved, "stability");
   const FlowSettings& flow = resolved.flow();
   const char* flow_needed = "an angle of attack needs an unbounded stream";
   if (flow.tunnel.kind != TunnelKind::free_air)
@@ -166,7 +167,6 @@ CanopyMesh restrained_mesh(const Settings& resolved, const SteadyState& state) {
 }
 
 FlowProblem stability_flow(const Settings& at_angle, const RigidCanopy& canopy, int across, double widest) {
-  require_canopy_alone(at_angle, "stability");
   FlowProblem problem = flow_problem(at_angle);
   const Extent e = extent_of(canopy.surface);
   const Vec3 size = e.upper() - e.lower(), middle = 0.5 * (e.lower() + e.upper());
