@@ -333,21 +333,6 @@ TEST(RunNumbers, InHeavyAirAFoldedCanopyIsLoadedLessThanTheOpenOne) {
   EXPECT_FALSE(opened.result.filled.value_or(true) || opened.result.opening_force_coefficient);
 }
 
-// Without a cell centre between the layers of its folds the air passes as if there were no canopy.
-TEST(RunNumbers, FoldsWithBothLayersBetweenTheSameCellCentresAreRefused) {
-  Case given = small_payload_case(20);
-  given.parachute.gores = given.parachute.lines.count = 8;
-  given.inflation.air = AirModel::coupled, given.inflation.initial_radius_m = 0.108;
-  const auto make = [&](std::array<int, 3> cells) {
-    given.flow.cells = cells;
-    const Settings resolved = resolve(opening_case(checked(given)));
-    make_opening(with_engine(resolved, opening_problem(resolved, load_source(resolved), 1)));
-  };
-  const std::string message = refusal_of([&] { make({40, 40, 50}); }, ExitCode::usage);
-  EXPECT_NE(message.find("do not resolve the 8 folds"), std::string::npos) << message;
-  EXPECT_NO_THROW(make({64, 64, 80}));
-}
-
 // Values that were not finite have been used as the number of a cell or as a size here: large and light canopies at
 // high speed, and stiff lines.
 TEST(RunNumbers, OfLargeFastOpeningsWithStiffLinesAreFinite) {
