@@ -53,10 +53,11 @@ void check_folds(const FoldedStart& folded, const std::vector<Cell>& cells, cons
       ExitCode::usage,
       fmt::format(
           "the cells of the flow grid do not resolve the {} folds of the canopy, whose skirt folds at "
-          "{:.3g} and {:.3g} m from the axis: both layers of the cloth are between the same cell centres "
-          "({:.2g} of the pairs of centres are on different sides of it, at least {:g} is needed), and the "
-          "air could not open the canopy. Use a finer flow grid, more folds (gores), or a larger radius of "
-          "the folded skirt",
+          "{:.3g} and {:.3g} m from the axis. Both layers of the cloth are between the same cell centres, so "
+          "the air could not open the canopy. A share of {:.2g} of the neighbouring centres with cloth "
+          "between "
+          "them is on different sides of it; at least {:g} is needed. Use a finer flow grid, more folds "
+          "(gores), or a larger radius of the folded skirt",
           folded.folds, folded.inner_radius, folded.outer_radius, share, least_share),
       {"flow grid", "radius of the folded skirt"});
 }
