@@ -7,6 +7,7 @@
 #include <string>
 
 #include "ripstop/core/words.h"
+#include "ripstop/parachute/cut.h"
 
 namespace ripstop::inline run {
 
@@ -43,21 +44,28 @@ Margins case_margins(const Settings& resolved, const CanopyMesh& mesh,
 
 Margins load_margins(const Settings& resolved, double load) {
   const PartMaterials& materials = resolved.materials();
-  return load_margins(resolved.parachute(), resolved.margins(), materials.canopy, load, materials.line,
-                      materials.riser, resolved.hardware());
+  return load_margins(resolved.parachute(), resolved.margins(), materials.canopy,
+                      materials.tape ? &*materials.tape : nullptr, load, materials.line, materials.riser,
+                      resolved.hardware());
 }
 
-Margins load_margins(const Design& design, const MarginFactors& factors, const Fabric& cloth, double load,
-                     const Line& line, const Line& riser, const HardwareParts& hardware) {
+Margins load_margins(const Design& design, const MarginFactors& factors, const Fabric& cloth,
+                     const Tape* tape, double load, const Line& line, const Line& riser,
+                     const HardwareParts& hardware) {
   MemberLoads loads;
-  loads.lines = {experience(design).line_load_factor * load / design.lines.count};
+  const double line_load = experience(design).line_load_factor * load / design.lines.count;
+  loads.lines = {line_load};
+  (tape ? loads.tape : loads.cloth) = tape ? line_load : line_load / Allowances{}.hem;
   if (design.riser.length_m > 0) loads.riser = load;
   loads.hardware = load;
-  Margins margins = margins_of(loads, factors, cloth, nullptr, line, riser, hardware);
-  std::erase_if(margins.members,
-                [](const Margin& m) { return m.member == "cloth"; });  // its load is not known
-  for (Margin& m : margins.members)
+  Margins margins = margins_of(loads, factors, cloth, tape, line, riser, hardware);
+  if (tape)
+    std::erase_if(margins.members,
+                  [](const Margin& m) { return m.member == "cloth"; });  // its load is not known
+  for (Margin& m : margins.members) {
+    if (m.member == "cloth") m.member = "hem";
     if (m.member == "line 1") m.member = "line";
+  }
   const Margin* least = weakest(margins);
   margins.weakest = least ? least->member : "";
   return margins;

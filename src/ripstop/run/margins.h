@@ -35,9 +35,11 @@ Margins case_margins(const Settings& resolved, const CanopyMesh& mesh,
                      const std::vector<double>& spring_tensions, const StressPeak& stress,
                      const std::vector<double>& reefing_tensions = {});
 
-/// Of lines, riser and hardware under an opening load [N]: a line carries an equal share of it times the family's line_load_factor.
-Margins load_margins(const Design& design, const MarginFactors& factors, const Fabric& cloth, double load,
-                     const Line& line, const Line& riser, const HardwareParts& hardware = {});
+/// Of lines, tape or hem, riser and hardware under an opening load [N]. A line carries an equal share of it times the
+/// family's line_load_factor, and the tape the load of one line, as in tape_for(); without one (null) a hem of the cloth.
+Margins load_margins(const Design& design, const MarginFactors& factors, const Fabric& cloth,
+                     const Tape* tape, double load, const Line& line, const Line& riser,
+                     const HardwareParts& hardware = {});
 Margins load_margins(const Settings& resolved, double load);
 
 /// One row a kind of member: of the lines the weakest.

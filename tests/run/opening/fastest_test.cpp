@@ -31,7 +31,7 @@ const SafeSpeed& by(const FastestResult& r, const std::string& method) {
 }
 
 TEST(Fastest, HasTheSpeedAtWhichTheWeakestMemberIsAtItsLimitByEveryMethod) {
-  const Settings resolved = flat_circular({{"hardware.swivel.rated_load_n", "900"}});
+  const Settings resolved = flat_circular({{"hardware.swivel.rated_load_n", "600"}});
   const FastestResult r = run_fastest(resolved, request());
   for (const SafeSpeed& safe : r.methods) {
     ASSERT_TRUE(safe.speed) << safe.method;

@@ -72,7 +72,7 @@ std::string to_json(const FastestResult& result);
 /// The speed of `request` is not used. The load of a method is the largest of all reefed stages and of the full opening;
 /// speeds are found by bisection. The uncertainty of a load is that of the drag area and the scatter of repeated
 /// openings (opening_scatter), as independent parts. Throws Error(usage) as run_load(), for a margin below 0, and for a
-/// parachute in which no strength of lines, riser and hardware is known.
+/// parachute in which no strength of lines, tape, riser and hardware is known.
 FastestResult run_fastest(const Settings& resolved, LoadRequest request, double margin = 0);
 
 /// result.json.

@@ -146,9 +146,9 @@ void find_opening(const SizeRequest& request, SizeResult& r) {
 
 /// Load over allowable of `member`, "line" or "riser", made of `line`; 0: its strength is not known.
 double used_of(const SizeResult& r, const Line& line, const char* member) {
-  for (const Margin& m :
-       load_margins(r.given.parachute, r.given.margins, canopy_fabric(r.given), r.design_load, line, line)
-           .members)
+  for (const Margin& m : load_margins(r.given.parachute, r.given.margins, canopy_fabric(r.given), nullptr,
+                                      r.design_load, line, line)
+                             .members)
     if (m.member == member) return m.used.value_or(0);
   return 0;
 }
@@ -268,12 +268,6 @@ void find_parachute(const SizeRequest& request, SizeResult& r) {
 
 void warn(const SizeRequest& request, SizeResult& r) {
   r.warnings = r.load_warnings;
-  if (r.tape_used > 1)
-    r.warnings.push_back(
-        fmt::format("the tape exceeds its allowable load: the load of a line is {:.3g} times the allowable "
-                    "one of {}, the strongest in the "
-                    "library; take a stronger tape (parachute.tape.material) or more lines",
-                    r.tape_used, r.tape_material));
   const StandardAir air = standard_air(request.density ? standard_height(r.density) : r.height);
   const double reynolds = r.density * request.descent_rate * r.nominal_diameter / air.viscosity;
   for (const std::string& text : outside_range(
