@@ -16,6 +16,7 @@
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/run/flight/measured_flight.h"
 #include "table_options.h"
+#include "units_option.h"
 
 namespace ripstop::cli {
 namespace {
@@ -31,34 +32,38 @@ struct CompareFlightArguments {
 };
 
 void print_phases(const MeasuredFlight& f) {
-  fmt::print("{:>6} {:>16} {:>10} {:>26} {:>14}\n", "phase", "heights m", "speed m/s", "drag area m2",
-             "C_D on S0");
+  const int height_width = both_units() ? 32 : 16, speed_width = both_units() ? 24 : 12,
+            area_width = both_units() ? 42 : 26;
+  fmt::print("{:>6} {:>{}} {:>{}} {:>{}} {:>14}\n", "phase", "heights", height_width, "speed", speed_width,
+             "drag area", area_width, "C_D on S0");
   for (std::size_t i = 0; i < f.phases.size(); ++i) {
     const DescentPhase& p = f.phases[i];
-    const std::string heights = fmt::format("{:.0f} to {:.0f}", p.from_height, p.to_height);
+    const std::string heights = in_units(fmt::format("{:.0f} to {:.0f} m", p.from_height, p.to_height));
     if (p.drag_area)
-      fmt::print("{:>6} {:>16} {:>10.2f} {:>26} {:>14.3f}\n", i + 1, heights, p.speed,
-                 fmt::format("{:.4f} +- {:.4f}", *p.drag_area, *p.drag_area_uncertainty),
-                 *p.drag_area / f.nominal_area);
+      fmt::print("{:>6} {:>{}} {:>{}} {:>{}} {:>14.3f}\n", i + 1, heights, height_width,
+                 in_units(fmt::format("{:.2f} m/s", p.speed)), speed_width,
+                 in_units(fmt::format("{:.4f} +- {:.4f} m2", *p.drag_area, *p.drag_area_uncertainty)),
+                 area_width, *p.drag_area / f.nominal_area);
     else
-      fmt::print("{:>6} {:>16} {:>10} not known: {}\n", i + 1, heights, "", p.problem);
+      fmt::print("{:>6} {:>{}} {:>{}} not known: {}\n", i + 1, heights, height_width, "", speed_width,
+                 in_units(p.problem));
   }
 }
 
 void print_result(const MeasuredFlight& f, const fs::path& out) {
-  fmt::print("{}\n  {:.4g} kg ({}), highest {:.0f} m above ground, noise of a height {:.2f} m\n",
+  print_text("{}\n  {:.4g} kg ({}), highest {:.0f} m above ground, noise of a height {:.2f} m\n",
              visible_line(f.title), f.mass, f.mass_from, f.highest, f.height_noise);
   print_phases(f);
   for (const LoggedDeployment& d : f.deployments) {
-    fmt::print("deployment at {:.1f} s, {:.0f} m: {:.1f} to {:.1f} m/s", d.time, d.height, d.speed_before,
+    print_text("deployment at {:.1f} s, {:.0f} m: {:.1f} to {:.1f} m/s", d.time, d.height, d.speed_before,
                d.speed_after);
-    if (d.peak_load) fmt::print(", peak {:.4g} N", *d.peak_load);
-    if (d.filling_time) fmt::print(", filling time {:.2f} s", *d.filling_time);
-    if (d.filling_distance) fmt::print(" ({:.1f} nominal diameters)", *d.filling_distance);
-    fmt::print("{}\n", d.problem.empty() ? "" : "; " + d.problem);
+    if (d.peak_load) print_text(", peak {:.4g} N", *d.peak_load);
+    if (d.filling_time) print_text(", filling time {:.2f} s", *d.filling_time);
+    if (d.filling_distance) print_text(" ({:.1f} nominal diameters)", *d.filling_distance);
+    print_text("{}\n", d.problem.empty() ? "" : "; " + d.problem);
   }
   for (const FlightComparison& c : f.computed)
-    fmt::print("{}: {:.4f} +- {:.4f} m2{}\n", c.run, c.drag_area, c.drag_area_uncertainty,
+    print_text("{}: {:.4f} +- {:.4f} m2{}\n", c.run, c.drag_area, c.drag_area_uncertainty,
                c.difference ? fmt::format(", {:+.1f} % against phase {}", 100 * *c.difference, c.phase) : "");
   fmt::print("{}\n", (out / "report.html").string());
 }
@@ -111,6 +116,7 @@ void add_compare_flight(CLI::App& app, int& status) {
   add_table_options(*command, options->columns, options->decimal, "altitude=Hoehe [m]");
   command->add_option("--out", options->out,
                       "Folder for report, plots and result.json (default: flight-log)");
+  add_units_option(*command);
   add_json_option(*command, options->json);
   command->callback([options, &status] { status = compare(*options); });
 }

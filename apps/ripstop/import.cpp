@@ -75,7 +75,7 @@ int run(const ImportArguments& options) {
   print_list("not converted", result.not_mapped);
   print_list("assumed, not in the file", result.assumed);
   std::fflush(stdout);  // before a refusal below
-  const Case given = parse_case(result.case_text, out.string());
+  const Case given = parse_case(result.case_text, out.string() + " (not written)");
   write_file(out, result.case_text);
   fmt::print("S0 {:.4f} m2, cloth {:.4f} m2: {}\n", nominal_area(given.parachute),
              computed_area(given.parachute), out.string());
@@ -113,8 +113,10 @@ void add_import(CLI::App& app, int& status) {
           "OpenRocket: meaning of the diameter, \"constructed\" (cloth laid flat) or \"projected\" (open "
           "canopy, with C_D on its area)")
       ->check(CLI::IsMember({"constructed", "projected"}));
-  add_number(*command, "--mass", options->payload_mass, key_range("payload.mass_kg"),
-             "OpenRocket: mass to be recovered [kg] (default: that of a stored simulation)");
+  add_number(
+      *command, "--mass", options->payload_mass, key_range("payload.mass_kg"),
+      "OpenRocket: mass of the payload, without the parachutes [kg] (default: that of a stored simulation, "
+      "without its parachutes)");
   command->callback([options, &status] { status = run(*options); });
 }
 

@@ -44,41 +44,41 @@ void print_deployment(const Settings& resolved) {
   const auto deployment = deployment_of(resolved);
   if (!deployment) return;
   const PackedParachute packed = packed_parachute(resolved);
-  fmt::print(
+  print_text(
       "deployment: container {:.3g} kg with {:.3g} m2, canopy {:.3g} kg, lines {:.3g} kg; strip force {:.3g} "
       "N, line "
       "force {:.3g} N\n",
       packed.bag_mass, packed.bag_drag_area, packed.canopy_mass, packed.lines_mass, packed.strip_force,
       packed.line_force);
   for (const DeploymentPhase& phase : deployment->phases)
-    fmt::print("  {:<24} {:8.4f} s {:8.2f} m, payload at {:6.2f} m/s, container at {:6.2f} m/s\n", phase.name,
+    print_text("  {:<24} {:8.4f} s {:8.2f} m, payload at {:6.2f} m/s, container at {:6.2f} m/s\n", phase.name,
                phase.time, phase.path, phase.payload_speed, phase.bag_speed);
   if (deployment->phase(lines_stretch))
-    fmt::print("  snatch load {:.1f} N at {:.4f} s, {:.2f} m/s apart\n", deployment->snatch_load,
+    print_text("  snatch load {:.1f} N at {:.4f} s, {:.2f} m/s apart\n", deployment->snatch_load,
                deployment->snatch_time, deployment->relative_speed);
-  if (deployment->stopped) fmt::print("  did not open: {}\n", *deployment->stopped);
+  if (deployment->stopped) print_text("  did not open: {}\n", *deployment->stopped);
 }
 
 void print_start(const Opening& solver, const InflationState& state, const LoadSource& source) {
   const FoldedStart& folded = solver.folded();
   const StartStrain strain = start_strain(solver.mesh(), folded.positions);
-  fmt::print("folded start: {} folds, skirt folds at {:.4f} m and {:.4f} m from the axis\n", folded.folds,
+  print_text("folded start: {} folds, skirt folds at {:.4f} m and {:.4f} m from the axis\n", folded.folds,
              folded.inner_radius, folded.outer_radius);
-  fmt::print("  largest strain {:.2e}{}\n", strain.largest,
+  print_text("  largest strain {:.2e}{}\n", strain.largest,
              strain.part.empty() ? "" : " (" + strain.part + "); should be below 1e-3");
-  fmt::print("  edges that pierce cloth {:.2f} %\n", 100 * pierced_share(solver.mesh(), folded.positions));
+  print_text("  edges that pierce cloth {:.2f} %\n", 100 * pierced_share(solver.mesh(), folded.positions));
   if (const auto& air = solver.problem().air)
-    fmt::print("{}: {} x {} x {} cells\n", source.text, air->flow.grid.nx, air->flow.grid.ny,
+    print_text("{}: {} x {} x {} cells\n", source.text, air->flow.grid.nx, air->flow.grid.ny,
                air->flow.grid.nz);
   else
-    fmt::print("pressure {:.2f} Pa ({})\n", solver.problem().pressure, source.text);
+    print_text("pressure {:.2f} Pa ({})\n", solver.problem().pressure, source.text);
   const ViscosityLimit& limit = solver.viscosity_limit();
   if (limit.least_share < 1)
-    fmt::print(
+    print_text(
         "damping of the cloth: reduced in {:.1f} % of the cells, to no less than {:.2f} of cloth_damping_s, "
         "to keep the time step\n",
         100 * limit.reduced_cells, limit.least_share);
-  fmt::print(
+  print_text(
       "nodes {}, time step {:.3e} s (stability limit {:.3e} s), {} thread{}; {} about {} on one thread\n",
       solver.mesh().node_count(), state.step, state.step / solver.problem().settings.step_fraction,
       solver.threads(), solver.threads() == 1 ? "" : "s",
@@ -99,12 +99,12 @@ void print_stages(const InflationResult& r) {
       text += fmt::format("; line {:.1f} N at {:.1f} ms", *stage.line_peak, 1000 * *stage.line_peak_time);
     const std::string name =
         stage.line ? fmt::format("stage {}, line {:g} m", i + 1, *stage.line) : std::string("open");
-    fmt::print("  {:<26} {}\n", name, text);
+    print_text("  {:<26} {}\n", name, text);
   }
   if (!r.margins) return;
   for (const Margin& m : r.margins->members)
     if (m.member.starts_with("reefing") && m.margin)
-      fmt::print("  {:<26} margin of safety {:+.2f}: {:.0f} N of {:.0f} N ({})\n", m.member, *m.margin,
+      print_text("  {:<26} margin of safety {:+.2f}: {:.0f} N of {:.0f} N ({})\n", m.member, *m.margin,
                  m.load, *m.strength, m.strength_from);
 }
 
@@ -169,7 +169,7 @@ void print_steady_load(const InflationResult& r) {
 
 void print_result(const InflationResult& r, const fs::path& folder, double wall_time) {
   const auto row = print_row;
-  fmt::print("\n{}\n", r.title);
+  print_text("\n{}\n", r.title);
   print_margins(r.margins);
   print_peaks(r);
   print_steady_load(r);
@@ -350,6 +350,7 @@ void add_inflate(CLI::App& app, int& status) {
              "Number of openings with different random perturbations of the folds, for mean and scatter");
   command->add_flag("--check", options->check,
                     "Fold the canopy, print strain, pressure and time step, and stop");
+  add_units_option(*command);
   add_json_option(*command, options->json);
   add_batch_options(*command, options->batch);
   command->callback([options, &status] { status = run(*options); });

@@ -6,6 +6,7 @@
 
 #include "case_options.h"
 #include "number_option.h"
+#include "ripstop/case/deployment.h"
 #include "ripstop/run/steady/steady_folder.h"
 
 namespace ripstop::cli {
@@ -33,6 +34,14 @@ Settings opening_settings(const OpeningOptions& options) {
   if (!options.steady_run.empty()) {  // replaces the value of the case
     given.inflation.pressure_pa.reset();
     given.inflation.drag_coefficient.reset();
+  }
+  if (!given.inflation.initial_radius_m) {
+    close_mouth(given.parachute, given.inflation);
+    const int folds = given.inflation.folds > 0 ? given.inflation.folds : given.parachute.lines.count;
+    fmt::print(stderr,
+               "ripstop: inflation.initial_radius_m is not given; the mouth is closed: radius of the folded "
+               "skirt {:.4g} m, {} folds\n",
+               *given.inflation.initial_radius_m, folds);
   }
   return resolve(opening_case(given));
 }

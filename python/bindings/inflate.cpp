@@ -6,6 +6,7 @@
 #include "members.h"
 #include "module.h"
 #include "opening.h"
+#include "ripstop/case/deployment.h"
 #include "ripstop/case/opening.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/opening/inflation.h"
@@ -120,6 +121,7 @@ Opening opening_of(const Case& given, const OptionalSource& steady, std::optiona
     changed.inflation.pressure_pa.reset();
     changed.inflation.drag_coefficient.reset();
   }
+  close_mouth(changed.parachute, changed.inflation);
   Opening opening{resolve(opening_case(changed)), {}, threads > 0 ? threads : given.coupling.threads};
   if (!steady) {
     opening.source = load_source(opening.resolved);

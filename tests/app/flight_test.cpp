@@ -127,6 +127,30 @@ TEST_F(FlightCommands, AnEmptyDeploymentFoldsGoresAndACross) {
   EXPECT_NE(printed().find("folded start: 4 folds"), std::string::npos) << printed();
 }
 
+TEST_F(FlightCommands, ARefusedImportStatesThatItsCaseIsNotWritten) {
+  write_file(in("tiny.ork"),
+             "<openrocket><rocket><subcomponents><parachute><name>P</name><diameter>0.005</diameter>"
+             "</parachute></subcomponents></rocket></openrocket>");
+  EXPECT_NE(run({"import", in("tiny.ork"), "--out", in("tiny.toml")}), 0);
+  EXPECT_NE(said().find("tiny.toml (not written):6:22: parachute.nominal_diameter_m = 0.005"),
+            std::string::npos)
+      << said();
+  EXPECT_FALSE(fs::exists(in("tiny.toml")));
+}
+
+TEST_F(FlightCommands, CompareFlightPrintsBothUnits) {
+  const std::string folder = RIPSTOP_SOURCE_DIR "/examples/flight-log/";
+  const auto compare = [&](const std::string& units) {
+    return run({"compare-flight", folder + "flight.csv", "--case", folder + "main.toml", "--ground", "200",
+                "--units", units, "--out", in("log")});
+  };
+  EXPECT_EQ(compare("si"), 0) << said();
+  EXPECT_EQ(printed().find("ft"), std::string::npos) << printed();
+  EXPECT_EQ(compare("us"), 0) << said();
+  for (const char* value : {"35.99 m/s (118.1 ft/s)", "m2 (3.207 +- ", "1500 m (4921 ft) above ground"})
+    EXPECT_NE(printed().find(value), std::string::npos) << printed();
+}
+
 // One iteration of a coarse run is not a finished drag: nothing may be made of it.
 TEST_F(FlightCommands, ARunThatDidNotConvergeCarriesNoFlight) {
   EXPECT_EQ(run({"steady", flat_, "--grid", "16,16,24", "--set", "parachute.mesh.cloth_nodes=500", "--set",

@@ -81,6 +81,17 @@ TEST_F(Inputs, ACoupledInflationIsCheckedAndRefusedForClothThatIsNoSheet) {
   refused({"inflate", stratos, "--air", "coupled"}, 2, "flow.porosity_model");
 }
 
+TEST_F(Inputs, AnOpeningWithoutARadiusHasAClosedMouthAndStatesIt) {
+  const Finished check =
+      ripstop_with({"inflate", examples + "flat-circular/case.toml", "--pressure", "100", "--cloth-nodes",
+                    "1500", "--check", "--units", "us", "--threads", "1"});
+  EXPECT_EQ(check.code, 0) << check.output;
+  EXPECT_NE(check.output.find("inflation.initial_radius_m is not given; the mouth is closed: radius"),
+            std::string::npos)
+      << check.output;
+  EXPECT_NE(check.output.find(" in) from the axis"), std::string::npos) << check.output;
+}
+
 TEST_F(Inputs, ACurveOverTheAngleOfAttackIsRefusedWithTheValueThatIsWrong) {
   const std::string flat = examples + "flat-circular/case.toml";
   const std::vector<std::string> command = {"stability", flat, "--dry-run", "--out", in("curve")};

@@ -179,13 +179,45 @@ TEST_F(OpenRocket, TheCaseHasTheDeviceAndItsDragArea) {
   EXPECT_NEAR(nominal_diameter(given.parachute), 0.61, 1e-9);
   EXPECT_EQ(given.parachute.lines.count, 6);
   EXPECT_EQ(given.parachute.lines.length_m, 0.7);
-  EXPECT_EQ(given.payload.mass_kg, 22.0);
   EXPECT_NEAR(given.inflation.drag_coefficient.value(), 0.75, 1e-9);
   const Settings resolved = resolve(given);
   EXPECT_EQ(resolved.materials().canopy.areal_density_kg_m2, 0.067);
   EXPECT_EQ(resolved.materials().line.linear_density_kg_m, 0.0018);
   EXPECT_NE(drogue.case_text.find("# Deployment: apogee, delay 1.5 s"), std::string::npos);
   EXPECT_FALSE(has_sentence(drogue.changed, "projected"));
+}
+
+// `ripstop recovery` adds the mass of Ripstop's own parachutes.
+TEST_F(OpenRocket, ThePayloadOfASimulationIsWithoutTheParachutesOfTheStage) {
+  const auto payload = [](const OpenRocketFile& file, const char* device) {
+    const ImportedCase import = import_openrocket(file, choose_device(file, device), {}, "rocket.ork");
+    return std::pair(parse_case(import.case_text, "case.toml").payload.mass_kg.value(), import);
+  };
+  const double quarter = std::numbers::pi / 4;
+  const double drogue = quarter * 0.61 * 0.61 * 0.067 + 6 * 0.7 * 0.0018;
+  const double main = quarter * 2.44 * 2.44 * 0.0373 + 12 * 2.8 * 0.0029;
+  const OpenRocketFile file = read_openrocket(two_stages);
+  const auto [with_main, import] = payload(file, "Main");
+  EXPECT_NEAR(with_main, 22 - drogue - main, 1e-6);
+  EXPECT_NEAR(payload(file, "Drogue").first, with_main, 1e-9);
+  EXPECT_TRUE(
+      has_sentence(import.mapped, "\"Sport launch\", 22 kg, without the parachutes (\"Drogue\" 0.027"));
+  const auto heavy = with("<diameter>0.61<", "<overridemass>0.5</overridemass><diameter>0.61<");
+  EXPECT_NEAR(payload(read_openrocket(heavy), "Main").first, 22 - 0.5 - main, 1e-6);
+  const auto unknown = with(" density=\"0.067\"", "");
+  const auto [without, note] = payload(read_openrocket(unknown), "Main");
+  EXPECT_NEAR(without, 22 - main, 1e-6);
+  EXPECT_TRUE(has_sentence(note.changed, "includes the parachute \"Drogue\""));
+  OpenRocketImportOptions options;
+  options.payload_mass = 20;
+  const std::string text =
+      import_openrocket(file, choose_device(file, "Main"), options, "rocket.ork").case_text;
+  EXPECT_EQ(parse_case(text, "case.toml").payload.mass_kg, 20);
+  const auto odd = read_openrocket(with("<diameter>0.61<", "<overridemass>30</overridemass><diameter>0.61<"));
+  EXPECT_NE(
+      refusal_of([&] { import_openrocket(odd, choose_device(odd, "Main"), {}, "r.ork"); }, ExitCode::bad_data)
+          .find("not more than its parachutes; give the payload with --mass"),
+      std::string::npos);
 }
 
 // A maker's coefficient on the projected area: the drag area stays, and the cloth is larger than the open canopy.

@@ -1,6 +1,7 @@
 // Settings: complete, immutable, and the same again from the case that they write out.
 #include "ripstop/case/settings.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -188,6 +189,19 @@ TEST(SameFlow, LetsTheCanopyMoveAndTheAirChangeWhereTheEngineScalesIt) {
     EXPECT_TRUE(same_after(builtin, edit)) << &edit - of_air;
     EXPECT_FALSE(same_after(openfoam, edit)) << &edit - of_air;
   }
+}
+
+// Few gores are wide when they lie flat: the default core is exactly as wide as the canopy, and may be rounded down.
+TEST(Settings, DefaultCoreContainsCanopiesOfThreeAndFourGores) {
+  for (const int gores : {3, 4})
+    for (int i = 0; i < 100; ++i) {
+      const double diameter = 2 + 0.01 * i;
+      std::string text =
+          replaced(short_case, "gores = 12", fmt::format("gores = {}\nvent_lines = false", gores));
+      text = replaced(text, "count = 12", fmt::format("count = {}", gores));
+      text = replaced(text, "nominal_diameter_m = 3.0", fmt::format("nominal_diameter_m = {:g}", diameter));
+      EXPECT_EQ(outcome_of(text).message, "") << gores << " gores, " << diameter << " m";
+    }
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ PackedParachute packed_parachute(const Settings& resolved);
 /// Error(usage) as packed_parachute() and deploy_parachute().
 std::optional<Deployment> deployment_of(const Settings& resolved);
 
-/// Folds and radius of the folded skirt of a deployment where the case gives none: a closed mouth, with a radius of 4 %
+/// Folds and radius of the folded skirt where the case gives no radius: a closed mouth, with a radius of 4 %
 /// of the nominal diameter and the smallest multiple of the lines that allows it.
 void close_mouth(const Design& design, InflationSettings& inflation);
 

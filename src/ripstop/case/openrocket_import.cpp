@@ -35,6 +35,14 @@ std::string list_of(const OpenRocketFile& file) {
   return list;
 }
 
+/// As the file gives it, or by OpenRocket's formula from the flat area, the lines and their densities [kg].
+std::optional<double> mass_of(const RecoveryDevice& d) {
+  if (d.mass) return d.mass;
+  const double lines = d.line_count.value_or(0) * d.line_length.value_or(0);
+  if (!d.diameter || !d.cloth_density || (lines > 0 && !d.line_density)) return {};
+  return pi / 4 * *d.diameter * *d.diameter * *d.cloth_density + lines * d.line_density.value_or(0);
+}
+
 class OpenRocketImporter {
  public:
   OpenRocketImporter(const OpenRocketFile& file, const RecoveryDevice& device,
@@ -178,14 +186,45 @@ class OpenRocketImporter {
     return text;
   }
 
+  /// Payload of the stored simulation: Ripstop adds the mass of its own parachutes [kg].
+  double simulated_payload() {
+    double payload = *d_.descent_mass;
+    std::string subtracted, unknown;
+    for (const RecoveryDevice& other : file_.devices) {
+      if (other.streamer || other.stage != d_.stage) continue;
+      const std::optional<double> mass = mass_of(other);
+      payload -= mass.value_or(0);
+      const std::string name = fmt::format("\"{}\"", visible_line(other.name));
+      if (mass)
+        subtracted += fmt::format("{}{} {:.3g} kg", subtracted.empty() ? "" : ", ", name, *mass);
+      else
+        unknown += (unknown.empty() ? "" : ", ") + name;
+    }
+    if (!(payload > 0))
+      refuse(
+          fmt::format("is in a stage of {:.4g} kg at the end of the simulation \"{}\", not more than its "
+                      "parachutes; give the payload with --mass",
+                      *d_.descent_mass, visible_line(d_.simulation)));
+    if (!subtracted.empty())
+      mapped(
+          "payload {:.4g} kg: the last mass of the simulation \"{}\", {:.4g} kg, without the parachutes ({})",
+          payload, visible_line(d_.simulation), *d_.descent_mass, subtracted);
+    else
+      mapped("payload {:.4g} kg: the last mass of the simulation \"{}\"", payload,
+             visible_line(d_.simulation));
+    if (!unknown.empty())
+      result_.changed.push_back(
+          fmt::format("the payload includes the parachute {}, because the file has no mass of it: correct "
+                      "payload.mass_kg",
+                      unknown));
+    return payload;
+  }
+
   std::string flight() {
     std::string text;
-    std::optional<double> mass = options_.payload_mass;
-    if (!mass && d_.descent_mass) {
-      mass = d_.descent_mass;
-      mapped("{:.4g} kg to be recovered: the last mass of the simulation \"{}\", parachutes included", *mass,
-             visible_line(d_.simulation));
-    }
+    const std::optional<double> mass = options_.payload_mass ? options_.payload_mass
+                                       : d_.descent_mass     ? std::optional(simulated_payload())
+                                                             : std::nullopt;
     const double nominal_area = pi / 4 * nominal_ * nominal_;
     double speed = assumed_speed, coefficient = 0;
     if (d_.drag_coefficient) {
@@ -199,7 +238,8 @@ class OpenRocketImporter {
             "(0.95): it is "
             "probably on the projected area; import with --diameter-is projected, or correct the case",
             coefficient));
-      if (mass) speed = std::sqrt(2 * *mass * standard_gravity / (assumed_density * drag_area));
+      const std::optional<double> carried = options_.payload_mass ? mass : d_.descent_mass;
+      if (carried) speed = std::sqrt(2 * *carried * standard_gravity / (assumed_density * drag_area));
     } else {
       result_.not_mapped.push_back(
           d_.automatic ? "C_D \"auto\": OpenRocket's own value is used there; compute it with "

@@ -20,7 +20,7 @@ struct OpenRocketImportOptions {
   std::optional<double> line_length;  // [m]; absent: the file's, or 1.15 nominal diameters (assumed)
   std::optional<double>
       vent_diameter;  // [m]; absent: the file's spill hole, or a tenth of the nominal diameter
-  std::optional<double> payload_mass;  // [kg]; absent: that of a stored simulation
+  std::optional<double> payload_mass;  // [kg]; absent: that of a stored simulation without its parachutes
 };
 
 /// The device that `wanted` names: its number in the list, counted from 1, or its name. Empty: the only parachute of

@@ -236,7 +236,7 @@ void check_cells(const Case& given, const FlowSettings& flow, Findings& findings
   if (!findings.sound({"flow.core.size_m", "flow.core.start_m", "flow.core.growth"})) return;
   const Vec3 core = flow.core.size_m;
   for (const auto& [index, side] : {std::pair{0, core.x}, std::pair{1, core.y}})
-    if (side > 0 && side < diameter)
+    if (side > 0 && side < (1 - 1e-12) * diameter)  // the default is equal, except for rounding
       findings.add(fmt::format("flow.core.size_m[{}]", index), side, fmt::format("at least {:.6g}", diameter),
                    fmt::format("a canopy of {:.6g} m diameter does not fit into the fine core", diameter));
   if (core.z > 0 && flow.core.start_m > skirt)

@@ -262,7 +262,10 @@ Settings flight_settings(const Case& given, const fs::path& from) {
   };
   if (from.empty()) return alone(resolve(flight_case(given)));
   const Settings opening = settings_of_run(from);
-  require_same_parachute(opening, from.string(), resolve(opening_case(given)));
+  Case folded = given;
+  if (folded.inflation.folds == 0 && !folded.inflation.initial_radius_m)
+    folded.inflation.folds = opening.inflation().folds;  // that of a closed mouth
+  require_same_parachute(opening, from.string(), resolve(opening_case(folded)));
   return alone(resolve(continued_case(given, opening)));
 }
 
