@@ -104,6 +104,7 @@ TEST_F(FlightCommands, BadInputIsRefusedWithItsReasonAndLeavesNoFile) {
       {{"descent", in("none"), "--mass", "4"}, "contains no finished run of ripstop steady"},
       {{"export", "rocketpy", in("empty")}, "contains no finished run of ripstop steady"},
       {{"export", "openrocket", in("none")}, "contains no finished run of ripstop steady"},
+      {{"export", "rocketpy", flat_}, "is a file; the folder of a finished run is required"},
       {{"export", "spacepy", in("empty")}, "spacepy"},
       {{"check", flat_, "--set", "payload.mass_kg=-1"}, "payload.mass_kg = -1: must be above 0"},
       {{"check", flat_, "--set", "margins.safety_factor=0.5"}, "must be at least 1 and at most 10"},

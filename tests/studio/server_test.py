@@ -274,12 +274,12 @@ class Server(unittest.TestCase):
         for family in families:
             status, case = self.studio.post("/api/case/create", file=f"{family}.toml", family=family)
             self.assertEqual((status, case["check"].get("problems")), (200, []), family)
-        status, case = self.studio.post("/api/case/size", file="sized.toml", family="conical", mass=2.4, rate=5, height=0)
+        status, case = self.studio.post("/api/case/size", file="sized.toml", family="conical", mass=2.4, rate=5, speed=20, height=0)
         self.assertEqual(status, 200, case)
         self.assertEqual(case["check"]["case"]["payload"]["mass_kg"], 2.4)
         subprocess.run([PROGRAM, "size", "--family=conical", "--mass=2.4", "--descent-rate=5", "--out", str(self.place / "sized.toml")], check=True, stdout=subprocess.DEVNULL)
         self.assertEqual((self.folder / "sized.toml").read_text(), (self.place / "sized.toml").read_text())
-        self.assertEqual(self.studio.post("/api/case/size", file="sized.toml", family="conical", mass=2.4, rate=5, height=0)[0], 400)
+        self.assertEqual(self.studio.post("/api/case/size", file="sized.toml", family="conical", mass=2.4, rate=5, speed=20, height=0)[0], 400)
 
     def test_options_of_a_run_are_no_way_to_other_options(self):
         for command in ("sweep", "stability", "load", "inflate", "fly", "recovery", "size"):

@@ -226,10 +226,11 @@ std::string Actions::copy(const std::string& file, const std::string& from) {
 }
 
 std::string Actions::size(const std::string& file, const std::string& family, double mass, double rate,
-                          double height) {
+                          double speed, double height) {
   new_case_path(file);
   must({"size", fmt::format("--mass={}", mass), fmt::format("--descent-rate={}", rate),
-        fmt::format("--height={}", height), "--family=" + family, "--out=" + file});
+        fmt::format("--deployment-speed={}", speed), fmt::format("--height={}", height), "--family=" + family,
+        "--out=" + file});
   return read(file);
 }
 

@@ -220,7 +220,7 @@ void StudioServer::Parts::add_writing() {
   post("/api/case/copy", [this](const Body& b) { return actions.copy(b.text("file"), b.text("from")); });
   post("/api/case/size", [this](const Body& b) {
     return actions.size(b.text("file"), b.text("family"), b.number("mass"), b.number("rate"),
-                        b.number("height"));
+                        b.number("speed"), b.number("height"));
   });
 }
 

@@ -268,11 +268,16 @@ void fly_record(const Settings& resolved, const LoadRequest& request, LoadResult
   compare_methods(stage);
 }
 
-/// The infinite-mass load of the stage with the highest, unless a measurement or a computed opening replaces it.
+/// The infinite-mass load of the stage with the highest, or that of a method that applies and has more (a payload that is
+/// accelerated on its path), unless a measurement or a computed opening replaces it.
 void choose_design_load(const Settings& resolved, const LoadRequest& request, LoadResult& r) {
   for (const StageLoads& stage : r.stages)
     r.design_load = std::max(r.design_load, stage.methods.front().load);
   r.design_load_from = "infinite mass, C_x C_D S0 q";
+  for (const StageLoads& stage : r.stages)
+    for (const MethodLoad& m : stage.methods)
+      if (m.applies && m.load > r.design_load)
+        r.design_load = m.load, r.design_load_from = m.method + ", more than infinite mass";
   if (request.measured_load) {
     r.design_load = *request.measured_load, r.design_load_from = "measured, as given";
   } else if (r.record_peak_load && request.reefing.empty()) {

@@ -49,6 +49,12 @@ FinishedSteady finished_steady(const Settings& resolved, const SteadyResult& res
 
 FinishedSteady finished_steady(const std::filesystem::path& folder) {
   const std::optional<std::string> text = finished_result(folder);
+  if (std::filesystem::is_regular_file(folder))
+    throw Error(
+        ExitCode::usage,
+        fmt::format("{}: is a file; the folder of a finished run is required: compute one with ripstop "
+                    "steady {} --out runs/{}, and give that folder",
+                    folder.string(), folder.string(), folder.stem().string()));
   if (!text || !is_of_steady(*text))
     throw Error(
         ExitCode::usage,

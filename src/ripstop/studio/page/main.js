@@ -115,12 +115,16 @@ const Studio = (() => {
         byId("create-problem").textContent = "";
         if (from.value === "size") {
           const number = (id) => Number(byId(id).value);
-          await Server.post("/api/case/size", { file, family, mass: number("create-mass"), rate: number("create-rate"), height: number("create-height") });
+          await Server.post("/api/case/size", { file, family, mass: number("create-mass"), rate: number("create-rate"), speed: number("create-speed"), height: number("create-height") });
         } else await Server.post("/api/case/create", { file, family });
         dialog.close();
         await look();
         await choose(file);
-        if (from.value === "size") { design.mass.value = byId("create-mass").value; design.drawLoads(); }
+        if (from.value === "size") {
+          design.mass.value = byId("create-mass").value;
+          design.speed.value = byId("create-speed").value;
+          design.drawLoads();
+        }
         show("design");
       } catch (error) { byId("create-problem").textContent = error.message; }
     };
