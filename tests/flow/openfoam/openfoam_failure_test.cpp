@@ -210,7 +210,7 @@ TEST_F(FittedMeshFailure, AMeshThatLeftTheClothOutIsRefused) {
 TEST_F(OpenFoamFailure, NumbersOutOfRangeAreNamedAndNothingIsWritten) {
   solver("exit 0");
   problem_.air.velocity = {};
-  EXPECT_PRED2(says, message(ExitCode::usage), "the speed = 0 m/s");
+  EXPECT_PRED2(says, message(ExitCode::usage), "speed of the free stream = 0 m/s");
   problem_.air.velocity = {0, 0, NAN};
   message(ExitCode::usage);
   problem_.air.velocity = {0, 0, 10};
