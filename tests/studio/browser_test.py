@@ -253,7 +253,7 @@ class StudioPage(unittest.TestCase):
         (self.folder / "a.toml").write_text(case + "\n[coupling]\nthreads = 1\nload = \"uniform\"\n")
         self.open()
         self.click("[data-view=runs]")
-        self.type_into("[data-option=\"--grid\"]", "32,32,40")
+        self.type_into("[data-option=\"--grid\"]", "60,60,72")
         self.click("[data-control=start]")
         self.until("/^ +[0-9]/m.test(document.querySelector('.log')?.textContent ?? '')")
         self.studio.end(signal.SIGKILL)
@@ -266,7 +266,7 @@ class StudioPage(unittest.TestCase):
         self.click("[data-job] [data-focus^=Resume]")
         self.until("!['queued', 'running', 'stopped'].includes(document.querySelector('[data-job]').dataset.state)")
         self.assertEqual(self.browser.evaluate("document.querySelector('[data-job]').dataset.state"), "finished", self.browser.evaluate("document.querySelector('[data-job] .line').textContent"))
-        subprocess.run([str(pathlib.Path(PROGRAM).resolve()), "steady", "a.toml", "--grid", "32,32,40", "--out", "runs/printed"], cwd=self.folder, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        subprocess.run([str(pathlib.Path(PROGRAM).resolve()), "steady", "a.toml", "--grid", "60,60,72", "--out", "runs/printed"], cwd=self.folder, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         results = [json.loads((self.folder / f"runs/{run}/result.json").read_text()) for run in ("a-steady", "printed")]
         for result in results:
             for key in [key for key in result if "time_s" in key]:
