@@ -202,8 +202,7 @@ void add_size(CLI::App& app, int& status) {
             r.drag_coefficient_on = area == "projected" ? DragReference::projected : DragReference::nominal;
           },
           "Area of --drag-coefficient: nominal (S0), or projected (the circle of the open canopy, as makers "
-          "state "
-          "it)")
+          "state it)")
       ->check(CLI::IsMember({"nominal", "projected"}));
   add_number(
       *command, "--deployment-speed", r.deployment_speed, above(0).up_to(1000),

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "ripstop/material/spring_law.h"
+#include "ripstop/parachute/cut.h"
 
 namespace ripstop::inline canopy {
 namespace {
@@ -34,6 +35,12 @@ Margin margin_of(std::string member, double load, std::string unit, Strength str
 }
 
 }  // namespace
+
+MemberLoads edge_loads(double line_load, const Tape* tape) {
+  MemberLoads loads;
+  (tape ? loads.tape : loads.cloth) = tape ? line_load : line_load / Allowances{}.hem;
+  return loads;
+}
 
 Margins margins_of(const MemberLoads& loads, const MarginFactors& f, const Fabric& cloth, const Tape* tape,
                    const Line& line, const Line& riser, const HardwareParts& hardware) {

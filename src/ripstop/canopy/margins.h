@@ -44,6 +44,10 @@ struct MemberLoads {
   double hardware = 0;  // of every part of it [N]
 };
 
+/// Loads of skirt, vent and seams, which carry the load of one line [N]: the tape, or without one (null) a hem of the
+/// cloth.
+MemberLoads edge_loads(double line_load, const Tape* tape);
+
 struct Margin {
   std::string member;  // "cloth", "tape", "line 3", "riser", "reefing line 1"
   double load = 0;     // [N/m] of cloth, else [N]

@@ -59,10 +59,8 @@ void describe(Fields& fields, Case& given) {
   fields.table("inflation", given.inflation, "The opening of the folded canopy.");
   fields.table("deployment", given.deployment,
                "Deployment before the opening of `ripstop inflate --air coupled`: from the extraction of the "
-               "bag until the "
-               "canopy has left it. An empty table has default values. Without the table a coupled opening "
-               "starts from the "
-               "folded canopy, stretched out.");
+               "bag until the canopy has left it. An empty table has default values. Without the table a "
+               "coupled opening starts from the folded canopy, stretched out.");
   fields.table("payload", given.payload, "Payload below the parachute, instead of a given flow speed.");
   fields.table("flight", given.flight, "Free flight of parachute and payload.");
   fields.table("margins", given.margins,

@@ -235,8 +235,8 @@ class OpenRocketImporter {
       if (coefficient > largest_on_nominal)
         result_.changed.push_back(fmt::format(
             "C_D {:.4g} on the area of the cloth is larger than that of any parachute of the handbook "
-            "(0.95): it is "
-            "probably on the projected area; import with --diameter-is projected, or correct the case",
+            "(0.95): it is probably on the projected area; import with --diameter-is projected, or correct "
+            "the case",
             coefficient));
       const std::optional<double> carried = options_.payload_mass ? mass : d_.descent_mass;
       if (carried) speed = std::sqrt(2 * *carried * standard_gravity / (assumed_density * drag_area));

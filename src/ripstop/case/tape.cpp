@@ -14,24 +14,13 @@
 namespace ripstop::inline cases {
 namespace {
 
-constexpr double hem_width = Allowances{}.hem;  // of cloth turned over along an edge [m]
-constexpr double unknown_opening = 1.8;         // C_x, the highest of the families' (assumed)
+constexpr double unknown_opening = 1.8;  // C_x, the highest of the families' (assumed)
 
-/// Safety factor times load over the allowable load; nothing if the strength is not known.
-std::optional<double> used(const Case& given, const MemberLoads& loads, const Tape* tape) {
-  return margins_of(loads, given.margins, canopy_fabric(given), tape, {}, {}).members.back().used;
-}
-
-std::optional<double> used_of_hem(const Case& given, double load) {
-  MemberLoads loads;
-  loads.cloth = load / hem_width;
-  return used(given, loads, nullptr);
-}
-
-std::optional<double> used_of_tape(const Case& given, double load, const Tape& tape) {
-  MemberLoads loads;
-  loads.tape = load;
-  return used(given, loads, &tape);
+/// Safety factor times load over the allowable load of the tape, or of a hem (null); nothing if the strength is not known.
+std::optional<double> used(const Case& given, double line_load, const Tape* tape) {
+  return margins_of(edge_loads(line_load, tape), given.margins, canopy_fabric(given), tape, {}, {})
+      .members.back()
+      .used;
 }
 
 /// Slots that lines do not span, or that have tapes of their own.
@@ -45,17 +34,17 @@ bool slots_need_tape(const Design& design) {
 
 TapeMaterial tape_for(const Case& given, double line_load) {
   line_load = std::max(1e-9, line_load);  // mistakes of air and area are reported elsewhere
-  const std::optional<double> hem = used_of_hem(given, line_load);
+  const std::optional<double> hem = used(given, line_load, nullptr);
   if (hem && *hem <= 1 && !slots_need_tape(given.parachute))
     return {no_tape,
             fmt::format("a hem of {:g} mm of the cloth carries the {} N of one line (utilisation {:.0f} %)",
-                        1000 * hem_width, rounded(line_load, 3), 100 * *hem),
+                        1000 * Allowances{}.hem, rounded(line_load, 3), 100 * *hem),
             *hem};
   const Tape *lightest = nullptr, *strongest = nullptr;
   double least_used = 0;
   for (const auto& [name, material] : given.materials) {
     const Tape* tape = std::get_if<Tape>(&material);
-    const std::optional<double> share = tape ? used_of_tape(given, line_load, *tape) : std::nullopt;
+    const std::optional<double> share = tape ? used(given, line_load, tape) : std::nullopt;
     if (!share) continue;
     if (!strongest || *share < least_used) strongest = tape, least_used = *share;
     if (*share <= 1 && (!lightest || tape->linear_density_kg_m < lightest->linear_density_kg_m))
@@ -64,12 +53,12 @@ TapeMaterial tape_for(const Case& given, double line_load) {
   if (!strongest)
     throw Error(ExitCode::usage, "the case has no tape of known strength: give parachute.tape.material");
   const Tape& chosen = lightest ? *lightest : *strongest;
-  const double used = *used_of_tape(given, line_load, chosen);
+  const double share = *used(given, line_load, &chosen);
   return {chosen.name,
           fmt::format("{} the {} N of one line (utilisation {:.0f} %)",
                       lightest ? "the lightest tape that carries" : "the strongest tape, too weak for",
-                      rounded(line_load, 3), 100 * used),
-          used};
+                      rounded(line_load, 3), 100 * share),
+          share};
 }
 
 TapeMaterial tape_material(const Case& given) {

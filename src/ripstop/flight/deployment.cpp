@@ -171,8 +171,7 @@ bool Deployer::unreel(const Stored& stored, double resistance, bool from_bag, do
   }
   result_.stopped = fmt::format(
       "{:.3g} of {:.3g} m of {} have left the bag after {:g} s: at {:.3g} m/s the pull on the bag does not "
-      "exceed the "
-      "{:.3g} N that they resist with",
+      "exceed the {:.3g} N that they resist with",
       most, stored.length, what, longest_unreeling, now_.v[payload], resistance);
   return false;
 }
@@ -265,8 +264,7 @@ void Deployer::stretch() {
   if (out_ >= canopy_.length) return;
   result_.stopped = fmt::format(
       "{:.3g} of {:.3g} m of the canopy have left the bag {:g} s after line stretch: the lines pull with at "
-      "most "
-      "{:.3g} N, the strip force is {:.3g} N",
+      "most {:.3g} N, the strip force is {:.3g} N",
       out_, canopy_.length, longest_stretch, highest, packed_.strip_force);
 }
 

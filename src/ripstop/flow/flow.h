@@ -133,6 +133,7 @@ struct Stopping {
   /// Without convergence after max_iterations, the result is the mean over the last so many of them; 0: the
   /// last iteration.
   int average_over = 0;
+  int average_every = 1;  // iterations from one field of that mean to the next
   /// Enough, too, once the drag moved by less than this share of itself within `piece` iterations; 0: never.
   double settled_drag = 0;
   static constexpr int piece = 25;

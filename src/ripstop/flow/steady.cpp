@@ -21,6 +21,8 @@ void check(const Stopping& s) {
   if (s.average_over < 0 || s.average_over > s.max_iterations)
     throw Error(ExitCode::usage, fmt::format("flow: average_over = {} must lie in 0 to max_iterations = {}",
                                              s.average_over, s.max_iterations));
+  if (s.average_every < 1)
+    throw Error(ExitCode::usage, fmt::format("flow: average_every = {} must be at least 1", s.average_every));
 }
 
 bool has_settled(const std::vector<double>& drag, double share) {
@@ -73,11 +75,11 @@ class Run {
   FlowField average() {
     FieldMean mean;
     std::vector<double> drags;
-    for (int n = 0; n < stopping_.average_over; ++n) {
-      advance(1);
+    for (int n = 0; n < stopping_.average_over; n += stopping_.average_every) {
+      advance(stopping_.average_every);
       if (now_.converged || now_.stopped) return last();
       flow_.add_to(mean);
-      drags.push_back(drag_.back());
+      drags.insert(drags.end(), drag_.begin(), drag_.end());
     }
     FlowField field = told(mean.mean());
     field.average.drag_deviation = deviation(drags);

@@ -30,11 +30,10 @@ void check_width(const FoldedStart& folded, const FlowGrid& grid) {
   throw QuantityError(
       ExitCode::usage,
       fmt::format(
-          "the skirt of the folded canopy is {:.3g} m wide, {:.2g} cells of the flow grid ({:.3g} m). "
-          "At least {:g} cells are needed: use cells of at most {:.3g} m, or a radius of the folded skirt of "
-          "at least {:.3g} m. Such cells are about {} x {} x {}, with {:.2g} times the memory and {:.2g} "
-          "times the "
-          "time of this grid",
+          "the skirt of the folded canopy is {:.3g} m wide, {:.2g} cells of the flow grid ({:.3g} m). At "
+          "least {:g} cells are needed: use cells of at most {:.3g} m, or a radius of the folded skirt of at "
+          "least {:.3g} m. Such cells are about {} x {} x {}, with {:.2g} times the memory and {:.2g} times "
+          "the time of this grid",
           width, width / across, across, least_cells_across, width / least_cells_across,
           0.5 * least_cells_across * across, cells(grid.nx), cells(grid.ny), cells(grid.nz),
           std::pow(finer, 3), std::pow(finer, 4)),
@@ -52,10 +51,9 @@ void check_folds(const FoldedStart& folded, const std::vector<Cell>& cells, cons
   throw QuantityError(
       ExitCode::usage,
       fmt::format(
-          "the cells of the flow grid do not resolve the {} folds of the canopy, whose skirt folds at "
-          "{:.3g} and {:.3g} m from the axis. Both layers of the cloth are between the same cell centres, so "
-          "the air could not open the canopy. A share of {:.2g} of the neighbouring centres with cloth "
-          "between "
+          "the cells of the flow grid do not resolve the {} folds of the canopy, whose skirt folds at {:.3g} "
+          "and {:.3g} m from the axis. Both layers of the cloth are between the same cell centres, so the "
+          "air could not open the canopy. A share of {:.2g} of the neighbouring centres with cloth between "
           "them is on different sides of it; at least {:g} is needed. Use a finer flow grid, more folds "
           "(gores), or a larger radius of the folded skirt",
           folded.folds, folded.inner_radius, folded.outer_radius, share, least_share),

@@ -55,8 +55,7 @@ void describe(Fields& fields, Bench& bench) {
   fields.choice("degree_rule", bench.degree_rule,
                 {{"cross-validation", DegreeRule::cross_validation}, {"nfm", DegreeRule::nfm}},
                 "The lowest degree that predicts a sample from the others as well as any; or, of unweighted "
-                "points, the "
-                "lowest with R2 above wanted_r2 in every orientation ([NFM]).");
+                "points, the lowest with R2 above wanted_r2 in every orientation ([NFM]).");
   fields.number("wanted_r2", bench.wanted_r2, above(0).below(1), "R2 required by degree_rule = \"nfm\".");
   fields.number("working_strain", bench.working_strain, from(1e-3).up_to(4),
                 "Strain up to which all points have equal weight. Beyond it the weight is (working_strain / "

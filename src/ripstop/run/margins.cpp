@@ -7,7 +7,6 @@
 #include <string>
 
 #include "ripstop/core/words.h"
-#include "ripstop/parachute/cut.h"
 
 namespace ripstop::inline run {
 
@@ -52,10 +51,9 @@ Margins load_margins(const Settings& resolved, double load) {
 Margins load_margins(const Design& design, const MarginFactors& factors, const Fabric& cloth,
                      const Tape* tape, double load, const Line& line, const Line& riser,
                      const HardwareParts& hardware) {
-  MemberLoads loads;
   const double line_load = experience(design).line_load_factor * load / design.lines.count;
+  MemberLoads loads = edge_loads(line_load, tape);
   loads.lines = {line_load};
-  (tape ? loads.tape : loads.cloth) = tape ? line_load : line_load / Allowances{}.hem;
   if (design.riser.length_m > 0) loads.riser = load;
   loads.hardware = load;
   Margins margins = margins_of(loads, factors, cloth, tape, line, riser, hardware);

@@ -62,6 +62,20 @@ TEST(DesignLoad, WithinTheirRangeTheMethodsApplyAndTheDesignLoadStays) {
   EXPECT_LT(r.stages.front().highest, r.design_load);
 }
 
+// Straight down, near its rate of descent, the weight adds to the load of a small drogue.
+TEST(DesignLoad, IsThatOfAMethodThatAppliesAndHasMoreThanInfiniteMass) {
+  LoadRequest asked = drop(23, 25);
+  asked.path_angle = 90;
+  const LoadResult r = run_load(resolve(sized_canopy(1.1)), asked);
+  const StageLoads& stage = r.stages.front();
+  double largest = 0;
+  for (const MethodLoad& m : stage.methods)
+    if (m.applies) largest = std::max(largest, m.load);
+  ASSERT_GT(largest, 1.01 * method(stage, "infinite mass").load);
+  EXPECT_EQ(r.design_load, largest);
+  EXPECT_NE(r.design_load_from.find("more than infinite mass"), std::string::npos) << r.design_load_from;
+}
+
 TEST(DesignLoad, OfAMeasurementIsTheMeasurement) {
   LoadRequest asked = drop();
   asked.measured_load = 251;

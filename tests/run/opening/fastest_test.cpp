@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "ripstop/core/error.h"
+#include "ripstop/run/margins.h"
 #include "tests/refusal.h"
 
 namespace ripstop {
@@ -48,6 +50,18 @@ TEST(Fastest, HasTheSpeedAtWhichTheWeakestMemberIsAtItsLimitByEveryMethod) {
   }
   EXPECT_EQ(by(r, infinite_mass_method).member, "swivel");
   EXPECT_EQ(r.design_method, infinite_mass_method);
+}
+
+TEST(Fastest, WithoutATapeAHemOfTheClothCarriesTheLoadOfALine) {
+  const Settings resolved = flat_circular({{"parachute.tape.material", "none"}});
+  const Margins margins = load_margins(resolved, 1200);
+  const auto hem = std::find_if(margins.members.begin(), margins.members.end(),
+                                [](const Margin& m) { return m.member == "hem"; });
+  ASSERT_NE(hem, margins.members.end());
+  EXPECT_NEAR(hem->load, experience(resolved.parachute()).line_load_factor * 100 / 0.02, 1e-6);
+  EXPECT_NEAR(*hem->used, 1.5 * hem->load / (*hem->strength * 0.8 * 0.95 * 0.95 * 0.95), 1e-9);
+  EXPECT_EQ(margins.weakest, "hem");
+  EXPECT_EQ(run_fastest(resolved, request()).design().member, "hem");
 }
 
 // F = C_x C_D S0 rho v^2 / 2 = F_allowed, and 1 + u times that at the lower end.

@@ -239,10 +239,8 @@ std::optional<std::string> mouth_warning(const std::vector<FreeFlightRow>& rows)
   if (share >= open_mouth) return {};
   return fmt::format(
       "in the second half of the flight the mouth has {:.0f} % of its area at the start: narrow rings or "
-      "sails "
-      "may have turned over; use more nodes (parachute.mesh.cloth_nodes), and inflation.cloth_compression = "
-      "0.1 "
-      "(docs/guide/fly.md)",
+      "sails may have turned over; use more nodes (parachute.mesh.cloth_nodes), and "
+      "inflation.cloth_compression = 0.1 (docs/guide/fly.md)",
       100 * share);
 }
 

@@ -108,8 +108,7 @@ std::string advice_of(const FastestResult& r, double filling_distance) {
         printed(design.lowest));
   std::string text = fmt::format(
       "{}, the lower end for infinite mass: the speed does not decrease during filling. It covers every way "
-      "to "
-      "deploy. The snatch load and the stress of the cloth are excluded",
+      "to deploy. The snatch load and the stress of the cloth are excluded",
       printed(design.lowest));
   std::optional<double> low = fastest_deployment, high = 0.0;
   bool others = false;

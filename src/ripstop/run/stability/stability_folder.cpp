@@ -15,7 +15,6 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/thread_team.h"
-#include "ripstop/flow/average.h"
 #include "ripstop/flow/steady.h"
 #include "ripstop/flow/stl.h"
 #include "ripstop/fsi/next_load.h"
@@ -290,29 +289,17 @@ StabilityRow Curve::equilibrium_in_time(std::size_t i, ClaimedFolder& folder, Fl
 }
 
 StabilityRow Curve::at_rest(std::size_t i, FlowEngine& engine, StabilityObserver& observer) {
-  const FlowProblem problem = flow_at(i);
-  const int most = problem.stopping.max_iterations;
-  const auto report = [&](int before) {
-    return [&, before](const FlowProgress& p) {
-      const int iteration = before + p.iteration;
-      observer.progress(
-          i,
-          fmt::format("iteration {}, residual {:.1e}, drag {:.2f} N", iteration, largest_residual(p), p.drag),
-          double(iteration) / (most + pieces_of_mean * Stopping::piece));
-      return true;
-    };
-  };
-  const auto flow = engine.start(problem);
-  FlowField field = solve_to_rest(*flow, problem.stopping, report(0));
-  if (!field.converged) {
-    FieldMean mean;
-    for (int n = 0; n < pieces_of_mean; ++n) {
-      flow->advance(Stopping::piece, problem.stopping.residual, report(most + n * Stopping::piece));
-      flow->add_to(mean);
-    }
-    field = mean.mean();
-    field.last.iteration = most + pieces_of_mean * Stopping::piece;
-  }
+  FlowProblem problem = flow_at(i);
+  Stopping& stopping = problem.stopping;
+  stopping.average_every = Stopping::piece, stopping.average_over = pieces_of_mean * Stopping::piece;
+  stopping.max_iterations += stopping.average_over;
+  const FlowField field = solve(engine, problem, [&](const FlowProgress& p) {
+    observer.progress(
+        i,
+        fmt::format("iteration {}, residual {:.1e}, drag {:.2f} N", p.iteration, largest_residual(p), p.drag),
+        double(p.iteration) / stopping.max_iterations);
+    return true;
+  });
   return row_of_field(field, problem.air, angles_[i], stability_reference(cases_[i]));
 }
 
