@@ -7,6 +7,7 @@
 #include "../small_case.h"
 #include "ripstop/canopy/shape.h"
 #include "ripstop/case/assemble.h"
+#include "ripstop/fsi/ledger.h"
 #include "ripstop/fsi/transfer.h"
 
 namespace ripstop {
@@ -42,6 +43,22 @@ TEST(Approach, IsOneProjectedDiameterBeforeTheCloth) {
   const double diameter = canopy_size(mesh, mesh.start).projected_diameter;
   ASSERT_GT(front, diameter);
   EXPECT_NEAR(approach_speed(field, mesh, mesh.start), 2 * (front - diameter), 1e-9);
+}
+
+// Forces of rigid bodies upstream are not part of the canopy's row.
+TEST(Ledger, HasTheForceAndTheMomentumDeficitOfTheCanopyAlone) {
+  const Case given = checked(flat_circular_case(1, 800, 20));
+  const CanopyMesh mesh = parachute_mesh(resolve(given));
+  FlowField field;
+  field.grid = {{-1, -1, 0}, {2, 2, 8}, 4, 4, 16};
+  field.velocity.assign(field.grid.cells(), {0, 0, 20});
+  field.bodies = {{{1, 0, 60}, {}}, {{0, 0, 12}, {}}, {{0, 2, 5}, {}}};
+  field.porous_force = {1, 2, 77};
+  field.momentum_deficit = {1, 2, 78};
+  SteadyIteration now;
+  enter_flow(now, {}, field, mesh, mesh.start);
+  EXPECT_DOUBLE_EQ(now.fluid_force, 60);
+  EXPECT_DOUBLE_EQ(now.momentum_deficit, 61);
 }
 
 }  // namespace
