@@ -40,21 +40,25 @@ struct LoadArguments {
 };
 
 /// The caution is printed where it differs from that of the stage before.
-void print_stage(const StageLoads& s, const std::string& known_caution) {
+void print_stage(const StageLoads& s, const LoadResult& r, const std::string& known_caution) {
   print_text(
       "\nat {:.2f} s: {:.3g} m/s, {:.4g} m above sea level, drag area {:.3g} to {:.3g} m2\n"
       "  filling {:.3g} s (n = {:.3g}), ballistic parameter {:.3g}, mass ratio {:.3g}\n",
       s.begin, s.speed, s.height, s.drag_area_before, s.drag_area, s.filling_time, s.filling_constant,
       s.ballistic_parameter, s.mass_ratio);
   const int width = both_units() ? 24 : 10;
-  fmt::print("  {:<18} {:>{}} {:>8}  {:<8} {}\n", "method", "load", width, "time s", "applies", "reason");
+  fmt::print("  {:<18} {:>{}} {:>8}  {:<8} {}\n", "method", "load", width, "time s", "use for", "reason");
   std::vector<std::string> notes;  // each is printed once, below the table
   for (const MethodLoad& m : s.methods) {
     const auto known = std::find(notes.begin(), notes.end(), m.note);
     const std::string reason = m.note.empty() ? "" : fmt::format("({})", known - notes.begin() + 1);
     if (!m.note.empty() && known == notes.end()) notes.push_back(m.note);
     fmt::print("  {:<18} {:>{}} {:>8}  {:<8} {}\n", m.method, in_units(fmt::format("{:.1f} N", m.load)),
-               width, m.time > 0 ? fmt::format("{:.3f}", m.time) : "-", m.applies ? "yes" : "no", reason);
+               width, m.time > 0 ? fmt::format("{:.3f}", m.time) : "-",
+               m.method == r.design_method && m.load == r.design_load ? "design"
+               : m.applies                                            ? "estimate"
+                                                                      : "-",
+               reason);
   }
   for (std::size_t i = 0; i < notes.size(); ++i) print_text("  ({}) {}\n", i + 1, notes[i]);
   if (!s.caution.empty() && s.caution != known_caution) print_text("  filling: {}\n", s.caution);
@@ -66,7 +70,9 @@ void print_stage(const StageLoads& s, const std::string& known_caution) {
   else if (applicable == 1)
     print_text("  one applicable method: {:.1f} N\n", s.lowest);
   else
-    print_text("  no method is applicable; the infinite-mass load is an upper bound on a horizontal path\n");
+    print_text(
+        "  no method estimates this opening; the infinite-mass load is an upper bound on a horizontal "
+        "path\n");
 }
 
 void print_snatch(const SnatchResult& s) {
@@ -114,10 +120,18 @@ void print_result(const LoadResult& r, const fs::path& folder) {
       r.filling_exponent, r.ludtke_exponent, r.filling_source);
   print_text("  DESIGN LOAD {:.1f} N: {}; largest line load {:.2f} times the mean\n", r.design_load,
              r.design_load_from, r.line_load_factor);
+  print_text(
+      "  Lines, tape, riser and hardware are designed for this load{}. An estimate is the expected load if "
+      "the "
+      "canopy fills as its method assumes.\n",
+      r.design_method == infinite_mass_method
+          ? ", which does not depend on the filling: methods with a smaller load assume a filling distance"
+          : "");
   print_margins(r.margins);
+  print_row("required hardware", hardware_text(r.hardware));
   std::string caution;
   for (const StageLoads& stage : r.stages) {
-    print_stage(stage, caution);
+    print_stage(stage, r, caution);
     caution = stage.caution;
   }
   print_text("\npeak load of the trajectory {:.1f} N after {:.3f} s\n", r.peak_load, r.peak_time);

@@ -46,6 +46,13 @@ void print_margins(const std::optional<Margins>& margins) {
   }
 }
 
+std::string hardware_text(const HardwareNeed& need) {
+  return fmt::format(
+      "each swivel, link or cord needs a rated load of {} N, or a breaking load of {} N (metal) or {} N "
+      "(textile)",
+      rounded(need.rated), rounded(need.metal), rounded(need.textile));
+}
+
 std::string safe_speed_text(const SafeSpeed& s) {
   if (s.unsafe_at)
     return fmt::format("NONE: the {} exceeds its allowable load at {:.1f} m/s", s.member, *s.unsafe_at);

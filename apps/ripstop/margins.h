@@ -14,6 +14,8 @@ namespace ripstop::cli {
 void print_stresses(double max_line_tension, const StressPeak& stress);
 void print_payload(const SteadyResult& result);
 void print_margins(const std::optional<Margins>& margins);
+/// Strength that each part of the hardware needs.
+std::string hardware_text(const HardwareNeed& need);
 /// "12.3 m/s, range 11 to 14 m/s, line reaches its allowable load", or that there is none.
 std::string safe_speed_text(const SafeSpeed& safe);
 /// ", riser: margin of safety -0.85, ALLOWABLE LOAD EXCEEDED"; empty where no strength is known.

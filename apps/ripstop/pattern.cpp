@@ -34,14 +34,28 @@ void print_bill(const Bill& bill) {
     part = std::max(part, row.part.size());
     material = std::max(material, row.material.size());
   }
-  fmt::print("{:<{}} {:<{}} {:>5} {:>11} {:>11} {:>9}\n", "part", part, "material", material, "count",
-             "finished", "cut", "mass");
+  fmt::print("{:<{}} {:<{}} {:>5} {:>11} {:>11} {:>11} {:>9}\n", "part", part, "material", material, "count",
+             "cut each", "finished", "cut", "mass");
   for (const BillRow& row : bill.rows) {
     const char* unit = row.is_cloth ? "m2" : "m ";
-    fmt::print("{:<{}} {:<{}} {:>5} {:>8.3f} {} {:>8.3f} {} {:>7.1f} g\n", row.part, part, row.material,
-               material, row.count, row.finished, unit, row.cut, unit, 1000 * row.mass);
+    fmt::print("{:<{}} {:<{}} {:>5} {:>8.3f} {} {:>8.3f} {} {:>8.3f} {} {:>7.1f} g\n", row.part, part,
+               row.material, material, row.count, row.cut_each, unit, row.finished, unit, row.cut, unit,
+               1000 * row.mass);
   }
-  fmt::print("{:<{}} {:>7.1f} g\n", "total, without thread", part + material + 32, 1000 * bill.mass);
+  fmt::print("{:<{}} {:>7.1f} g\n", "total, without thread", part + material + 44, 1000 * bill.mass);
+}
+
+/// Lengths that the bill does not show: allowances, hems, and lines on the canopy.
+void print_lengths(const PatternResult& r) {
+  const Allowances& extra = r.allowances;
+  fmt::print("cut lengths include {:g} mm at each end of a line or riser and {:g} mm for each tape\n",
+             1000 * extra.line_loop, 1000 * extra.tape_overlap);
+  if (r.line_on_canopy > 0)
+    fmt::print("suspension lines: {:.3f} m of each are sewn to the canopy, {:.3f} m are free\n",
+               r.line_on_canopy, r.line_length);
+  for (const CutLength& hem : r.hems)
+    fmt::print("hem, {}: {:.3f} m in all, {:g} mm of the pieces turned\n", hem.name, hem.length,
+               1000 * extra.hem);
 }
 
 int run(const PatternArguments& options) {
@@ -58,6 +72,7 @@ int run(const PatternArguments& options) {
     return 0;
   }
   print_bill(result.bill);
+  print_lengths(result);
   fmt::print("packed volume at {:.0f} kg/m3: {:.3f} litres\n", result.packing_density,
              1000 * result.bill.packed_volume);
   fmt::print("S0 {:.4f} m2, cloth {:.4f} m2 finished\n", result.nominal_area, result.cloth_area);

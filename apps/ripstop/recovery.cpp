@@ -38,21 +38,35 @@ std::string range_text(const Ranged& r, const char* unit) {
 
 void print_stage(const RecoveryStage& s) {
   print_text("\n{}: {}\n", s.name, s.title);
-  print_row("drag", fmt::format("C_D {:.3f} +- {:.0f} % on S0 = {:.4g} m2, drag area {:.4g} m2: {}",
-                                s.drag_coefficient, 100 * s.drag_uncertainty, s.reference_area,
+  print_row("drag", fmt::format("C_D {:.3f} ({}) on S0 = {:.4g} m2, drag area {:.4g} m2: {}",
+                                s.drag_coefficient, s.drag_basis, s.reference_area,
                                 s.drag_coefficient * s.reference_area, s.drag_source));
+  print_row("range of C_D in descent", fmt::format("{:.3f} to {:.3f}: {}", s.descent_drag.low,
+                                                   s.descent_drag.high, s.descent_drag.from));
   print_row("opening", fmt::format("{:.2f} s after apogee, {} m above the ground, at {}", s.time,
                                    rounded(s.height), range_text(s.speed, "m/s")));
   print_row("opening load", fmt::format("{} to {} N by the applicable methods; filling time {:.3g} s",
                                         rounded(s.lowest_load), rounded(s.highest_load), s.filling_time));
-  print_row("design load", fmt::format("{} N: {}", rounded(s.design_load), s.design_load_from));
+  print_row(
+      "design load",
+      fmt::format("{}: {}", range_text({s.design_load, s.least_design_load, s.largest_design_load}, "N"),
+                  s.design_load_from));
   print_margins(s.margins);
+  print_row("required hardware", hardware_text(s.hardware));
   print_row("fastest safe deployment", safe_speed_text(s.safe));
   print_row("descent rate at the end", range_text(s.descent_rate, "m/s"));
   print_row("duration", range_text(s.duration, "s"));
   print_row("drift", range_text(s.drift, "m"));
   print_row("packed", fmt::format("{:.3g} litres, mass {:.3g} kg{}", 1000 * s.packed_volume, s.mass,
                                   s.bay_length ? fmt::format(", {:.3g} m of the bay", *s.bay_length) : ""));
+}
+
+std::string wind_text(const RecoveryResult& r) {
+  if (!(r.wind.speed_m_s > 0)) return "none given (--wind)";
+  if (!(r.wind.exponent > 0)) return fmt::format("{} m/s at all heights", rounded(r.wind.speed_m_s));
+  return fmt::format("{} m/s at {} m above the ground, power law with the exponent {:g}: {} m/s at apogee",
+                     rounded(r.wind.speed_m_s), rounded(r.wind.reference_height_m), r.wind.exponent,
+                     rounded(r.apogee_wind));
 }
 
 void print_result(const RecoveryResult& r, const fs::path& folder) {
@@ -65,10 +79,11 @@ void print_result(const RecoveryResult& r, const fs::path& folder) {
   for (const SectionEnergy& section : r.sections)
     print_row("", fmt::format("section of {:.4g} kg: {}", section.mass, range_text(section.energy, "J")));
   print_row("time since apogee", range_text(r.time, "s"));
-  print_row("drift with the wind", r.wind > 0 ? range_text(r.drift, "m") : "no wind given (--wind)");
+  print_row("wind", wind_text(r));
+  if (r.wind.speed_m_s > 0) print_row("drift with the wind", range_text(r.drift, "m"));
   print_row("path in still air", fmt::format("{} m along the flight direction at apogee", rounded(r.range)));
   print_text(
-      "Ranges: the drag coefficients of all parachutes are decreased and increased by their uncertainty.\n"
+      "Ranges: with the smallest and the largest drag coefficients of all parachutes in descent.\n"
       "{} (report.html, height.png, speed.png, trajectory.csv, result.json)\n",
       folder.string());
 }

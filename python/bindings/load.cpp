@@ -32,6 +32,7 @@ LoadResult load(const PyCase& given, LoadRequest request, const std::optional<St
 }  // namespace
 
 void add_load(py::module_& module) {
+  add_class<HardwareNeed>(module, "HardwareNeed", "Strength that each part of the hardware needs.");
   add_class<StageLoads>(module, "StageLoads", "Opening loads of one stage by all methods.");
   add_class<SnatchChange>(module, "SnatchChange", "Snatch load with one part changed.");
   add_class<SnatchResult>(module, "Snatch", "Snatch load at line stretch.");

@@ -7,15 +7,6 @@
 #include "members.h"
 #include "module.h"
 
-namespace ripstop {
-template <Of<CutLength> T, class Visit>
-void each_member(T& c, Visit&& visit) {
-  visit("name", c.name);
-  visit("count", c.count);
-  visit("length_m", c.length);
-}
-}  // namespace ripstop
-
 namespace ripstop::python {
 namespace {
 

@@ -84,6 +84,20 @@ TEST(Margins, HardwareCarriesTheRisersLoadByItsOwnStrength) {
   EXPECT_EQ(margins.weakest, "link");
 }
 
+TEST(Margins, HardwareOfTheRequiredStrengthIsUsedExactly) {
+  const Materials m;
+  const MarginFactors f{2, 0.5, 0.8, 0.9, 0.95, 1, 1};
+  const HardwareNeed need = hardware_need(900, f);
+  HardwareParts parts;
+  parts["a"].rated_load_n = need.rated;
+  parts["b"].breaking_load_n = need.metal;
+  parts["c"].kind = Hardware::Kind::textile, parts["c"].breaking_load_n = need.textile;
+  MemberLoads loads;
+  loads.hardware = 900;
+  const Margins margins = margins_of(loads, f, m.cloth, nullptr, m.line, m.riser, parts);
+  for (std::size_t i = 1; i < 4; ++i) EXPECT_NEAR(*margins.members[i].used, 1, 1e-12);
+}
+
 // A chain of one strain: 0.9 of the law in the axial spring, 0.05 in each of two springs over two.
 TEST(Margins, AChainCarriesTheSumOfItsAxialAndBendingSprings) {
   const double axial = 90;

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <utility>
 
 namespace ripstop {
 namespace {
@@ -36,6 +38,17 @@ TEST(Words, AKeyAndItsValueAreAPhrase) {
   EXPECT_EQ(in_words("coupling.linear", "false"), "nonlinear cloth");
   EXPECT_EQ(in_words("parachute.vent_diameter_m", "0.09"), "vent diameter 0.09 m");
   EXPECT_EQ(in_words("parachute.tape.inner_hems", "false"), "no inner hems");
+}
+
+TEST(Words, ValuesThatDifferNeverLookEqualInAComparison) {
+  using Texts = std::pair<std::string, std::string>;
+  EXPECT_EQ(rounded_apart(9.97, 10, 2), Texts("9.97", "10"));
+  EXPECT_EQ(rounded_apart(25.68, 25.66), Texts("25.68", "25.66"));
+  EXPECT_EQ(rounded_apart(7.4, 10, 2), Texts("7.4", "10"));
+  EXPECT_EQ(rounded_apart(0.8 + 1e-9, 0.8).second, "0.8");
+  EXPECT_NE(rounded_apart(0.8 + 1e-9, 0.8).first, "0.8");
+  EXPECT_EQ(rounded_apart(5, 5), Texts("5", "5"));
+  EXPECT_NE(rounded_apart(1, std::nextafter(1, 2)).first, rounded_apart(1, std::nextafter(1, 2)).second);
 }
 
 TEST(Words, ARoundedNumberHasNoExponentBelow1e15) {

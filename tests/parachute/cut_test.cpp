@@ -99,6 +99,36 @@ TEST(CutPattern, AFlatCircularGoreIsATrapezoidWithTheAngleOfItsGore) {
   EXPECT_NEAR((lower.x - upper.x) / (upper.y - lower.y), std::tan(std::numbers::pi / 12), 1e-12);
 }
 
+TEST(CutPattern, HemsAreSkirtAndVentAroundAllGores) {
+  const Case given = example("flat-circular");
+  const CutPattern pattern = cut_pattern(given.parachute);
+  const std::vector<CutLength> hems = hems_of(pattern);
+  ASSERT_EQ(hems.size(), 2u);
+  const Piece& gore = pattern.pieces[0];
+  EXPECT_EQ(hems[0].name, "skirt");
+  EXPECT_NEAR(hems[0].length, gore.count * 2 * gore.outline[1].x, 1e-12);
+  EXPECT_EQ(hems[1].name, "vent");
+  EXPECT_NEAR(hems[1].length, gore.count * 2 * gore.outline[2].x, 1e-12);
+  for (const CutLength& tape : pattern.tapes)  // along both hems, where there is tape
+    for (const CutLength& hem : hems)
+      if (tape.name == hem.name) EXPECT_NEAR(tape.length, hem.length, 1e-12);
+}
+
+TEST(CutPattern, TheCutLengthOfOnePieceHasItsOwnAllowance) {
+  const Settings given = resolve(example("annular"));
+  const Allowances extra{.line_loop = 0.2, .tape_overlap = 0.1};
+  int lengths = 0;
+  for (const BillRow& row :
+       bill_of(cut_pattern(given.parachute()), given.parachute(), given.materials(), extra, 400).rows) {
+    EXPECT_NEAR(row.count * row.cut_each, row.cut, 1e-12);
+    if (row.is_cloth) continue;
+    EXPECT_NEAR(row.cut_each, row.finished / row.count + (row.kind == BillPart::tape ? 0.1 : 0.4), 1e-12)
+        << row.part;
+    ++lengths;
+  }
+  EXPECT_GE(lengths, 3) << "suspension lines, apex lines, tape";
+}
+
 // A line at every seam, or more of them equally spaced along the lowest edge.
 TEST(CutPattern, MarksTheLinesAndNamesTheEdgesOfEveryFamily) {
   for (const CanopyFamily* family : families()) {

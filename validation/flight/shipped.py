@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the coefficients in descent of free flights for `ripstop size` into examples/flown.json.
+"""Writes the coefficients in descent of free flights for `ripstop size` and `ripstop recovery` into examples/flown.json.
 
     /usr/bin/python3 validation/flight/shipped.py
 
@@ -8,6 +8,7 @@ Failed flights and flights with fewer than four half-swings are left out.
 """
 import json
 import pathlib
+import tomllib
 
 import campaign
 
@@ -30,6 +31,7 @@ def rows():
         value, error = number(row["C_D0 in descent"])
         yield {
             "family": row["family"],
+            "type": tomllib.loads((ROOT / f"examples/{row['family']}/case.toml").read_text())["parachute"]["type"],
             "canopy_material": CLOTHS[row["cloth CFM"]],
             "drag_coefficient": value,
             "standard_error": error,

@@ -34,7 +34,16 @@ Margin margin_of(std::string member, double load, std::string unit, Strength str
   return m;
 }
 
+/// Share of the strength that is left of a line or a textile part with its joints.
+double joined_share(const MarginFactors& f) {
+  return f.abrasion * f.moisture * f.fatigue * f.temperature * f.line_joint_efficiency;
+}
+
 }  // namespace
+
+HardwareNeed hardware_need(double load, const MarginFactors& f) {
+  return {load, f.safety_factor * load, f.safety_factor * load / joined_share(f)};
+}
 
 MemberLoads edge_loads(double line_load, const Tape* tape) {
   MemberLoads loads;
@@ -44,8 +53,8 @@ MemberLoads edge_loads(double line_load, const Tape* tape) {
 
 Margins margins_of(const MemberLoads& loads, const MarginFactors& f, const Fabric& cloth, const Tape* tape,
                    const Line& line, const Line& riser, const HardwareParts& hardware) {
-  const double all = f.abrasion * f.moisture * f.fatigue * f.temperature;
-  const double sewn = all * f.seam_efficiency, joined = all * f.line_joint_efficiency;
+  const double sewn = f.abrasion * f.moisture * f.fatigue * f.temperature * f.seam_efficiency;
+  const double joined = joined_share(f);
   Margins result;
   auto& members = result.members;
   members.push_back(

@@ -71,6 +71,13 @@ struct Margins {
 Margins margins_of(const MemberLoads& loads, const MarginFactors& factors, const Fabric& cloth,
                    const Tape* tape, const Line& line, const Line& riser, const HardwareParts& hardware = {});
 
+/// Strength that every part of the hardware needs under a load [N]: a rated load, or the breaking load of a metal or a
+/// textile part.
+struct HardwareNeed {
+  double rated = 0, metal = 0, textile = 0;
+};
+HardwareNeed hardware_need(double load, const MarginFactors& factors);
+
 /// The weakest member; null when no strength is known.
 const Margin* weakest(const Margins& margins);
 

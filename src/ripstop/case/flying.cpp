@@ -12,6 +12,7 @@
 #include "ripstop/case/payload.h"
 #include "ripstop/case/resolve.h"
 #include "ripstop/core/error.h"
+#include "ripstop/core/words.h"
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/descent.h"
 #include "ripstop/parachute/fold.h"
@@ -195,11 +196,12 @@ Case continued_case(const Case& given, const Settings& opening) {
 
 void require_payload(const Settings& flight) {
   const double payload = *flight.payload().mass_kg, least = least_payload * parachute_mass(flight);
-  if (payload < least)
-    refuse(fmt::format(
-        "payload.mass_kg = {:g}: must be at least {:.3g} kg, a quarter of the mass of its parachute, because "
-        "a lighter payload does not keep the lines taut; use a heavier payload or a smaller canopy",
-        payload, least));
+  if (payload >= least) return;
+  const auto [given, needed] = rounded_apart(payload, least);
+  refuse(fmt::format(
+      "payload.mass_kg = {}: must be at least {} kg, a quarter of the mass of its parachute, because a "
+      "lighter payload does not keep the lines taut; use a heavier payload or a smaller canopy",
+      given, needed));
 }
 
 FlightProblem flight_problem(const Settings& flight, std::vector<Vec3> shape, std::vector<double> pressure,

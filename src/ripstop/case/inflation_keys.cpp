@@ -46,6 +46,11 @@ void describe_pressure(Fields& fields, InflationSettings& inflation) {
               "Drag coefficient on S0. It determines the pressure for which the steady drag is C_D S0 q at "
               "the speed of [flow].")
       .absent("from pressure_pa, or from a steady run given on the command line");
+  fields.choice("drag_coefficient_basis", inflation.drag_coefficient_basis,
+                {{"axial", InflationSettings::Basis::axial}, {"descent", InflationSettings::Basis::descent}},
+                "Motion in which drag_coefficient was found: \"axial\" in steady flow along the axis, "
+                "\"descent\" in free descent, as in handbooks and catalogues. `ripstop recovery` widens the "
+                "range of an axial coefficient by the ratios of both in computed flights.");
   fields.number("ramp_s", inflation.ramp_s, from(0).up_to(1000),
                 "Time of the linear rise of the pressure; 0: immediate.");
 }

@@ -257,8 +257,10 @@ class OpenRocketImporter {
     else
       assumed("flow: {:g} m/s at {:g} kg/m3", speed, assumed_density);
     if (coefficient > 0)
-      text +=
-          fmt::format("\n[inflation]\ndrag_coefficient = {:.9g}  # on S0, for ripstop load\n", coefficient);
+      text += fmt::format(
+          "\n[inflation]\ndrag_coefficient = {:.9g}  # on S0, for ripstop load\n"
+          "drag_coefficient_basis = \"descent\"\n",
+          coefficient);
     return text;
   }
 

@@ -8,6 +8,7 @@
 #include "ripstop/case/quantity_keys.h"
 #include "ripstop/case/resolve.h"
 #include "ripstop/core/toml/read.h"
+#include "ripstop/core/words.h"
 #include "ripstop/flight/atmosphere.h"
 
 namespace ripstop::inline cases {
@@ -259,9 +260,9 @@ void check_cells(const Case& given, const FlowSettings& flow, Findings& findings
     if (across < fewest_cells_across)
       findings.add(fmt::format("flow.cells[{}]", i), cells[i],
                    fmt::format("at least {:.0f}", std::ceil(cells[i] * fewest_cells_across / across)),
-                   fmt::format("only {:.3g} cells across the diameter of the canopy; at least {} are "
-                               "required to represent a canopy",
-                               across, fewest_cells_across));
+                   fmt::format("only {} cells across the diameter of the canopy; at least {} are required to "
+                               "represent a canopy",
+                               rounded_apart(across, fewest_cells_across).first, fewest_cells_across));
   }
 }
 

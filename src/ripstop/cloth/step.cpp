@@ -9,6 +9,7 @@
 #include "ripstop/cloth/forces.h"
 #include "ripstop/cloth/stability_limit.h"
 #include "ripstop/core/error.h"
+#include "ripstop/core/words.h"
 
 namespace ripstop::inline cloth {
 namespace {
@@ -27,11 +28,14 @@ void check_step(const Cloth& cloth, const ClothState& state, double dt) {
                     state.steps, state.time, stiffness.stretched_node,
                     place_of(cloth.mesh, stiffness.stretched_node), stiffness.largest_strain, dt));
   const StabilityLimit limit = stability_limit(cloth, state, stiffness);
-  if (dt > limit.stable_step)
-    throw Error(ExitCode::diverged,
-                fmt::format("step {} (t = {:.6g} s): the time step {:.4g} s exceeds the stability limit of "
-                            "{:.4g} s of node {} ({}) at its present strain; reduce the time step",
-                            state.steps, state.time, dt, limit.stable_step, limit.node, limit.part));
+  if (dt > limit.stable_step) {
+    const auto [step, stable] = rounded_apart(dt, limit.stable_step, 4);
+    throw Error(
+        ExitCode::diverged,
+        fmt::format("step {} (t = {:.6g} s): the time step {} s exceeds the stability limit of {} s of "
+                    "node {} ({}) at its present strain; reduce the time step",
+                    state.steps, state.time, step, stable, limit.node, limit.part));
+  }
 }
 
 /// Steps [0, count) of one call, shared by all threads.

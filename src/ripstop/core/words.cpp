@@ -207,4 +207,12 @@ std::string rounded(double value, int digits) {
   return fmt::format("{:.0f}", std::round(value / step) * step);
 }
 
+std::pair<std::string, std::string> rounded_apart(double value, double limit, int digits) {
+  constexpr int all = 17;  // digits of a double
+  std::pair<std::string, std::string> texts;
+  do texts = {rounded(value, digits), rounded(limit, digits)};
+  while (texts.first == texts.second && value != limit && ++digits <= all);
+  return texts;
+}
+
 }  // namespace ripstop

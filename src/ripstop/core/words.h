@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
 namespace ripstop {
 
@@ -19,5 +20,8 @@ Wording in_words(const std::string& key);
 std::string in_words(const std::string& key, const std::string& value);
 /// Rounded to `digits` significant digits, without an exponent below 1e15: "10680" for 10676.3.
 std::string rounded(double value, int digits = 4);
+/// Both values rounded to `digits` significant digits, or to more if they would look equal although they differ: 9.97 and
+/// 10 with 2 digits are "9.97" and "10". For messages that compare a value with its limit.
+std::pair<std::string, std::string> rounded_apart(double value, double limit, int digits = 3);
 
 }  // namespace ripstop

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "ripstop/core/error.h"
+#include "ripstop/core/words.h"
 
 namespace ripstop::inline flight {
 
@@ -37,8 +38,9 @@ std::vector<std::string> outside_range(const std::string& model, const std::vect
       const std::string range = r.high < std::numeric_limits<double>::infinity()
                                     ? fmt::format("{:g} to {:g}{}", r.low, r.high, r.unit)
                                     : fmt::format("{:g}{} and above", r.low, r.unit);
-      std::string text = fmt::format("{} of {:.3g}{} is outside the range of the {}, {} ({})", r.quantity,
-                                     v.value, r.unit, r.model, range, r.source);
+      const std::string value = rounded_apart(v.value, v.value < r.low ? r.low : r.high).first;
+      std::string text = fmt::format("{} of {}{} is outside the range of the {}, {} ({})", r.quantity, value,
+                                     r.unit, r.model, range, r.source);
       if (v.value > r.refused_above)
         throw Error(ExitCode::usage, fmt::format("{}; above {:g} it gives no result", text, r.refused_above));
       all.push_back(std::move(text));

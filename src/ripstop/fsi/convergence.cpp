@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "ripstop/core/words.h"
 #include "ripstop/fsi/ledger.h"
 
 namespace ripstop::inline fsi {
@@ -21,17 +22,17 @@ void enter_shape_change(SteadyIteration& now, const std::vector<Vec3>& before,
 
 std::vector<std::string> unmet_criteria(const SteadyIteration& last, const CouplingSettings& settings) {
   std::vector<std::string> unmet;
+  const auto add = [&](fmt::format_string<std::string&, std::string&> text, double value, double limit) {
+    auto [shown, allowed] = rounded_apart(value, limit, 2);
+    unmet.push_back(fmt::format(text, shown, allowed));
+  };
   if (!(last.shape_change < settings.shape_tolerance_m))
-    unmet.push_back(fmt::format("the shape changes by {:.2g} m (limit {:.2g} m)", last.shape_change,
-                                settings.shape_tolerance_m));
+    add("the shape changes by {} m (limit {} m)", last.shape_change, settings.shape_tolerance_m);
   if (!last.in_time && !(last.drag_change < settings.drag_tolerance))
-    unmet.push_back(fmt::format("the drag changes by {:.2g} % (limit {:.2g} %)", 100 * last.drag_change,
-                                100 * settings.drag_tolerance));
+    add("the drag changes by {} % (limit {} %)", 100 * last.drag_change, 100 * settings.drag_tolerance);
   if (!(last.regularisation_share < regularisation_tolerance))
-    unmet.push_back(
-        fmt::format("slack cloth is restrained to the previous shape by {:.2g} % of the load (limit "
-                    "{:.2g} %)",
-                    100 * last.regularisation_share, 100 * regularisation_tolerance));
+    add("slack cloth is restrained to the previous shape by {} % of the load (limit {} %)",
+        100 * last.regularisation_share, 100 * regularisation_tolerance);
   if (!ledger_closes(last, ledger_tolerance))
     unmet.push_back(
         fmt::format("air load, cloth load and line load differ by more than {:g} %", 100 * ledger_tolerance));

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "ripstop/core/quantity_error.h"
+#include "ripstop/core/words.h"
 #include "ripstop/flow/sheet_sides.h"
 #include "ripstop/fsi/coupled_step.h"
 #include "ripstop/fsi/load_model.h"
@@ -30,13 +31,13 @@ void check_width(const FoldedStart& folded, const FlowGrid& grid) {
   throw QuantityError(
       ExitCode::usage,
       fmt::format(
-          "the skirt of the folded canopy is {:.3g} m wide, {:.2g} cells of the flow grid ({:.3g} m). At "
+          "the skirt of the folded canopy is {:.3g} m wide, {} cells of the flow grid ({:.3g} m). At "
           "least {:g} cells are needed: use cells of at most {:.3g} m, or a radius of the folded skirt of at "
           "least {:.3g} m. Such cells are about {} x {} x {}, with {:.2g} times the memory and {:.2g} times "
           "the time of this grid",
-          width, width / across, across, least_cells_across, width / least_cells_across,
-          0.5 * least_cells_across * across, cells(grid.nx), cells(grid.ny), cells(grid.nz),
-          std::pow(finer, 3), std::pow(finer, 4)),
+          width, rounded_apart(width / across, least_cells_across, 2).first, across, least_cells_across,
+          width / least_cells_across, 0.5 * least_cells_across * across, cells(grid.nx), cells(grid.ny),
+          cells(grid.nz), std::pow(finer, 3), std::pow(finer, 4)),
       {"flow grid", "radius of the folded skirt"});
 }
 

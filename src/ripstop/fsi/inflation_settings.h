@@ -32,7 +32,8 @@ struct InflationSettings {
 
   std::optional<double> pressure_pa;       // dp over the canopy
   std::optional<double> drag_coefficient;  // on S0: dp such that the steady drag is C_D S0 q
-  double ramp_s = 0;                       // dp rises in proportion to time until then
+  enum class Basis { axial, descent } drag_coefficient_basis = Basis::axial;
+  double ramp_s = 0;  // dp rises in proportion to time until then
 
   double damping_n_s_m3 = 8.2;  // C_a a unit area of cloth, [NFM] Eq. 20
   double quadratic_damping_n_s2_m4 = 0;

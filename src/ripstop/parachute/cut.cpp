@@ -150,6 +150,29 @@ CutPattern cut_pattern(const Design& design) {
   return cut;
 }
 
+std::vector<CutLength> hems_of(const CutPattern& pattern) {
+  std::vector<CutLength> hems;
+  const auto add = [&](const std::string& name, double length) {
+    const auto known =
+        std::find_if(hems.begin(), hems.end(), [&](const CutLength& hem) { return hem.name == name; });
+    if (known == hems.end())
+      hems.push_back({name, 1, length});
+    else
+      known->length += length;
+  };
+  for (const Piece& piece : pattern.pieces) {
+    for (const EdgeRun& run : edge_runs(piece))
+      if (run.kind == Edge::hem) add(run.name, piece.count * run.length());
+    double around = 0;
+    for (std::size_t i = 0; i < piece.opening.size(); ++i) {
+      const Point2 from = piece.opening[i], to = piece.opening[(i + 1) % piece.opening.size()];
+      around += std::hypot(to.x - from.x, to.y - from.y);
+    }
+    if (around > 0) add("opening", piece.count * around);
+  }
+  return hems;
+}
+
 Bill bill_of(const CutPattern& pattern, const Design& design, const PartMaterials& materials,
              const Allowances& allowances, double packing_density) {
   Bill bill;
@@ -179,7 +202,7 @@ Bill bill_of(const CutPattern& pattern, const Design& design, const PartMaterial
   if (design.riser.length_m > 0)
     add_length({"riser", 1, design.riser.length_m}, materials.riser.name, 2 * allowances.line_loop,
                materials.riser.linear_density_kg_m, BillPart::riser);
-  for (const BillRow& row : bill.rows) bill.mass += row.mass;
+  for (BillRow& row : bill.rows) row.cut_each = row.cut / row.count, bill.mass += row.mass;
   bill.packed_volume = bill.mass / packing_density;
   return bill;
 }

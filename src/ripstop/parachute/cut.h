@@ -70,6 +70,8 @@ std::vector<Point2> opening_with_allowance(const Piece& piece, const Allowances&
 CutPattern cut_pattern(const GorePattern& pattern, const Design& design);
 /// Of any family.
 CutPattern cut_pattern(const Design& design);
+/// Free edges of the cloth by name, with the length of all of them: hems that are turned, and taped where there is tape.
+std::vector<CutLength> hems_of(const CutPattern& pattern);
 
 enum class BillPart { cloth, tape, line, riser };
 struct BillRow {
@@ -79,6 +81,7 @@ struct BillRow {
   bool is_cloth = false;
   double mass = 0;  // as cut [kg]
   BillPart kind = BillPart::cloth;
+  double cut_each = 0;  // `cut` of one piece
 };
 struct Bill {
   std::vector<BillRow> rows;

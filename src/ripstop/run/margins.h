@@ -29,6 +29,13 @@ void each_member(T& m, Visit&& visit) {
   visit("weakest_member", m.weakest);
 }
 
+template <Of<HardwareNeed> T, class Visit>
+void each_member(T& n, Visit&& visit) {
+  visit("rated_load_n", n.rated);
+  visit("breaking_load_n", n.metal);
+  visit("textile_breaking_load_n", n.textile);
+}
+
 /// `spring_tensions` of all springs outside the cloth, of a shape or the highest of an opening [N], and the highest
 /// ones of the reefing lines of so many stages.
 Margins case_margins(const Settings& resolved, const CanopyMesh& mesh,

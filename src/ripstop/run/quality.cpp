@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "ripstop/case/settings.h"
+#include "ripstop/core/words.h"
 
 namespace ripstop::inline run {
 namespace {
@@ -53,21 +54,23 @@ const QualityLimit& quality_limit(std::string_view key) {
   return *found;
 }
 
+bool QualityLimit::beyond(double value, double bound) const {
+  constexpr double rounding = 1 - 1e-9;
+  return !std::isfinite(value) || (at_least ? value < rounding * bound : value > bound);
+}
+
 Judgement judge(const std::vector<QualityValue>& values) {
   Judgement judgement;
   for (const QualityValue& v : values) {
     const QualityLimit& limit = quality_limit(v.key);
-    const auto beyond = [&](double bound) {
-      constexpr double rounding = 1 - 1e-9;  // ten cells across that are 9.999...
-      return !std::isfinite(v.value) || (limit.at_least ? v.value < rounding * bound : v.value > bound);
-    };
-    if (!beyond(limit.warn)) continue;
-    const bool refused = beyond(limit.refuse);
+    if (!limit.beyond(v.value, limit.warn)) continue;
+    const bool refused = limit.beyond(v.value, limit.refuse);
     judgement.usable = judgement.usable && !refused;
-    judgement.warnings.push_back(
-        fmt::format("{}: {:.3g}{}, {} {:.3g}{} is acceptable; {}{}", limit.name, limit.shown_as * v.value,
-                    limit.unit, limit.at_least ? "at least" : "up to", limit.shown_as * limit.warn,
-                    limit.unit, refused ? "the result must not be used; " : "", limit.remedy));
+    const auto [value, acceptable] = rounded_apart(limit.shown_as * v.value, limit.shown_as * limit.warn);
+    judgement.warnings.push_back(fmt::format("{}: {}{}, {} {}{} is acceptable; {}{}", limit.name, value,
+                                             limit.unit, limit.at_least ? "at least" : "up to", acceptable,
+                                             limit.unit, refused ? "the result must not be used; " : "",
+                                             limit.remedy));
   }
   return judgement;
 }

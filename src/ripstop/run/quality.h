@@ -19,6 +19,10 @@ struct QualityLimit {
   double shown_as = 1;  // factor of the number in a message
   const char* unit = "";
   const char* remedy = "";
+
+  /// Whether a value is on the wrong side of `bound`, one of the two above, or not finite. Ten cells across that are
+  /// 9.999999999 by rounding are not.
+  bool beyond(double value, double bound) const;
 };
 
 /// All of them.

@@ -1,15 +1,22 @@
 // A recovery is the sum of its stages: terminal speeds, times, drift and energies of closed forms.
 #include "ripstop/run/descent/recovery.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "ripstop/core/error.h"
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/descent.h"
+#include "ripstop/run/descent/flown.h"
+#include "ripstop/run/report/report_tables.h"
 #include "tests/refusal.h"
 
 namespace ripstop {
@@ -75,6 +82,91 @@ TEST(Recovery, RangesFollowTheUncertaintyOfTheDrag) {
   EXPECT_NEAR(r.landing_speed.high / r.landing_speed.value, 1 / std::sqrt(1 - u), 3e-3);
   EXPECT_LT(r.time.low, r.time.value);
   EXPECT_GT(r.time.high, r.time.value);
+}
+
+std::vector<Setting> with_coefficient(const char* basis, const char* cloth = "f-111-physical") {
+  return {{"inflation.drag_coefficient", "0.68"},
+          {"inflation.drag_coefficient_basis", basis},
+          {"parachute.canopy_material", cloth}};
+}
+
+// Flights of Ripstop: the coefficient in descent of a flat circular canopy is larger than the axial one, of a cross
+// smaller. A range has both ends, each with the uncertainty of a coefficient.
+TEST(Recovery, AnAxialCoefficientHasTheRangeOfTheFlights) {
+  const FlownDrag* same = nullptr;
+  std::vector<double> same_type;
+  for (const FlownDrag& row : flown_drags()) {
+    if (row.type != "flat-circular") continue;
+    same_type.push_back(row.drag_coefficient / row.axial_coefficient);
+    if (row.cloth == "f-111-physical") same = &row;
+  }
+  ASSERT_TRUE(same);
+  const auto drag_of = [](const std::vector<Setting>& more) {
+    const RecoveryResult r = run_recovery(canopy(3.5, more), {}, request());
+    EXPECT_EQ(r.stages[0].drag_coefficient, 0.68);
+    EXPECT_NE(r.stages[0].descent_drag.from, "");
+    return r.stages[0].descent_drag;
+  };
+  const DescentDrag axial = drag_of(with_coefficient("axial"));
+  EXPECT_NEAR(axial.low, 0.9 * 0.68, 1e-12);
+  EXPECT_NEAR(axial.high, 1.1 * 0.68 * same->drag_coefficient / same->axial_coefficient, 1e-12);
+  const DescentDrag other = drag_of(with_coefficient("axial", "pia-c-44378-type-iv"));
+  EXPECT_NEAR(other.high, 1.1 * 0.68 * *std::max_element(same_type.begin(), same_type.end()), 1e-12);
+  const DescentDrag descent = drag_of(with_coefficient("descent"));
+  EXPECT_NEAR(descent.high, 1.1 * 0.68, 1e-12);
+  const Settings cross =
+      resolve(read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/cross/case.toml"));
+  const DescentDrag arms = descent_drag(cross, {0.7, "", 0.1, "axial"});
+  EXPECT_LT(arms.low, 0.95 * 0.9 * 0.7);
+  EXPECT_NEAR(arms.high, 1.1 * 0.7, 1e-12);
+}
+
+// The main opens fastest under a drogue with the smallest drag, and lands slowest with the largest of both.
+TEST(Recovery, RangesCombineTheEndsOfBothParachutes) {
+  const Settings drogue = canopy(0.7, with_coefficient("descent")),
+                 main = canopy(3.5, with_coefficient("axial"));
+  const RecoveryResult r = run_recovery(main, drogue, request());
+  const RecoveryStage &first = r.stages[0], &second = r.stages[1];
+  EXPECT_NEAR(first.descent_rate.high / first.descent_rate.value, 1 / std::sqrt(0.9), 3e-3);
+  EXPECT_NEAR(first.descent_rate.low / first.descent_rate.value, 1 / std::sqrt(1.1), 3e-3);
+  const double both =
+      first.reference_area * first.descent_drag.high + second.reference_area * second.descent_drag.high;
+  EXPECT_NEAR(r.landing_speed.low / terminal_speed(r.total_mass, both, standard_air(200).density), 1, 2e-3);
+  // C_x C_D S0 q at the fastest opening.
+  const double faster = second.speed.high / second.speed.value;
+  EXPECT_NEAR(second.largest_design_load / second.design_load,
+              second.descent_drag.high / 0.68 * faster * faster, 1e-6);
+  EXPECT_LT(second.least_design_load, second.design_load);
+  EXPECT_LT(r.time.low, r.time.value);
+}
+
+TEST(Recovery, EveryPartOfTheHardwareHasItsRequiredStrength) {
+  const RecoveryResult r = run_recovery(canopy(3.5), canopy(0.7), request());
+  for (const RecoveryStage& s : r.stages) {
+    EXPECT_EQ(s.hardware.rated, s.design_load);
+    EXPECT_GT(s.hardware.metal, s.hardware.rated);
+    EXPECT_GT(s.hardware.textile, s.hardware.metal);
+  }
+}
+
+TEST(Recovery, RowsAndTablesNameTheirStage) {
+  const RecoveryResult r = run_recovery(canopy(3.5), canopy(0.7), request());
+  EXPECT_EQ(r.rows.front().open, 1);
+  EXPECT_EQ(r.rows.back().open, 2);
+  ReportRun run;
+  add_result(run, to_json(r), "result.json");
+  std::set<std::string> titles;
+  for (const ReportTable& table : run.tables) titles.insert(table.title);
+  EXPECT_TRUE(titles.contains("Stages drogue margins")) << fmt::format("{}", fmt::join(titles, "; "));
+  EXPECT_TRUE(titles.contains("Stages main margins members"));
+}
+
+TEST(Recovery, AWindProfileIsReportedWithItsSpeedAtApogee) {
+  const RecoveryResult r =
+      run_recovery(canopy(3.5, {{"flight.wind.speed_m_s", "4"}, {"flight.wind.exponent", "0.15"}}),
+                   canopy(0.7), request());
+  EXPECT_NEAR(r.apogee_wind, 4 * std::pow(300, 0.15), 1e-9);
+  EXPECT_EQ(r.wind.exponent, 0.15);
 }
 
 TEST(Recovery, DriftIsTheWindTimesTheTimeInItAndAProfileIsSlowerBelow) {

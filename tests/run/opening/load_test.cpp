@@ -137,6 +137,12 @@ TEST(Load, ListsTheMethodsAndWhichApply) {
   }
   expect_judged(stage);
   EXPECT_TRUE(method(stage, "trajectory").applies);
+  // The design load is the load of one of the methods, and hardware of that rated load is sufficient.
+  EXPECT_EQ(method(stage, r.design_method).load, r.design_load);
+  EXPECT_EQ(r.hardware.rated, r.design_load);
+  LoadRequest measured = request();
+  measured.measured_load = 500;
+  EXPECT_EQ(run_load(resolve(flat_circular()), measured).design_method, "");
 }
 
 TEST(Load, EndsInTheSteadyDescentOfItsMass) {

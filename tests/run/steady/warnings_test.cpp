@@ -63,6 +63,24 @@ TEST(Warnings, AGridIsWarnedOfWhereTheAirsOwnLoadFindsFewerThanTenCellsAcrossThe
   EXPECT_TRUE(grid_warnings(resolve(given)).empty());
 }
 
+// Ten cells across are enough, whatever the rounding of box and cells; slightly fewer are not printed as ten.
+TEST(Warnings, NoGridIsSaidToHaveTenCellsAndFewerThanTen) {
+  Case given = warned_case();
+  given.coupling.load = CanopyLoad::of_flow;
+  given.flow.core.size_m = Vec3{0, 0, 0};
+  const double across = inflated_diameter(given.parachute);
+  const auto with_cells = [&](double cells) {
+    const double width = across / cells * 50;
+    given.flow.cells = std::array{50, 50, 50}, given.flow.box_m = Vec3{width, width, width};
+    return grid_warnings(resolve(given));
+  };
+  EXPECT_TRUE(with_cells(10 * (1 - 1e-12)).empty());
+  const std::vector<std::string> warnings = with_cells(9.97);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].find("9.97 flow cells across the inflated canopy: with fewer than 10 "), 0u)
+      << warnings[0];
+}
+
 TEST(Warnings, PermeabilityOfAnotherModelIsWarnedOfWithBothWords) {
   Case given = warned_case();
   given.parachute.canopy_material = "f-111";  // for `paper`

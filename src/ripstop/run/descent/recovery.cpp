@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <utility>
@@ -14,6 +14,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/positive.h"
+#include "ripstop/core/words.h"
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/validity.h"
 #include "ripstop/flight/wind.h"
@@ -32,10 +33,19 @@ struct RecoveryCanopy {
   std::string name;
   const Settings& resolved;
   DragCoefficient drag;
+  DescentDrag range;
   double area = 0, mass = 0;  // S0 [m2], [kg]
 };
 
-/// One flight: with `factor` times the drag coefficients.
+/// Which coefficient of each parachute a flight has.
+enum class DragEnd { nominal, low, high };
+double coefficient(const RecoveryCanopy& canopy, DragEnd end) {
+  return end == DragEnd::low    ? canopy.range.low
+         : end == DragEnd::high ? canopy.range.high
+                                : canopy.drag.value;
+}
+
+/// One stage of one flight.
 struct FlownStage {
   FlightState opening;
   LoadResult load;        // of run_load() there
@@ -61,11 +71,27 @@ void check_recovery(const RecoveryRequest& q, bool two_stages) {
                             q.main_height, q.apogee));
 }
 
+/// Opening of a canopy at a state of the flight, of the whole mass [kg].
+LoadResult opening_load(const RecoveryCanopy& canopy, double drag_coefficient, const FlightState& state,
+                        double mass, const RecoveryRequest& request) {
+  LoadRequest asked;
+  asked.payload_mass = mass - canopy.mass;
+  asked.speed = state.speed, asked.height = state.height, asked.ground = request.ground;
+  asked.path_angle = std::clamp(state.path_angle, -90.0, 90.0);
+  asked.drag_coefficient = drag_coefficient;
+  asked.descent = false;
+  // Slower than it will descend, as soon after apogee: methods without gravity; the trajectory has the weight.
+  if (state.speed <=
+      1.001 * slowest_opening(mass, drag_coefficient * canopy.area, state.height, asked.path_angle))
+    asked.path_angle = 0;
+  return run_load(canopy.resolved, asked);
+}
+
 class RecoveryFlight {
  public:
   RecoveryFlight(const std::vector<RecoveryCanopy>& canopies, const RecoveryRequest& request,
-                 const Wind& wind, double body_area, double factor)
-      : canopies_(canopies), request_(request), wind_(wind), body_area_(body_area), factor_(factor) {
+                 const Wind& wind, double body_area, DragEnd end)
+      : canopies_(canopies), request_(request), wind_(wind), body_area_(body_area), end_(end) {
     mass_ = request.mass;
     for (const RecoveryCanopy& canopy : canopies) mass_ += canopy.mass;
   }
@@ -86,24 +112,10 @@ class RecoveryFlight {
   }
 
  private:
-  LoadResult opening_load(const RecoveryCanopy& canopy) const {
-    LoadRequest asked;
-    asked.payload_mass = mass_ - canopy.mass;
-    asked.speed = state_.speed, asked.height = state_.height, asked.ground = request_.ground;
-    asked.path_angle = std::clamp(state_.path_angle, -90.0, 90.0);
-    asked.drag_coefficient = factor_ * canopy.drag.value;
-    asked.descent = false;
-    // Slower than it will descend, as soon after apogee: methods without gravity; the trajectory has the weight.
-    if (state_.speed <= 1.001 * slowest_opening(asked.payload_mass + canopy.mass,
-                                                *asked.drag_coefficient * canopy.area, state_.height,
-                                                asked.path_angle))
-      asked.path_angle = 0;
-    return run_load(canopy.resolved, asked);
-  }
-
   void fly_stage(std::size_t i) {
     const RecoveryCanopy& canopy = canopies_[i];
-    FlownStage stage{state_, opening_load(canopy)};
+    FlownStage stage{state_, opening_load(canopy, coefficient(canopy, end_), state_, mass_, request_)};
+    ++open_;
     const StageLoads& opening = stage.load.stages.front();
     const double others = body_area_ + (request_.drogue_released ? 0 : before_);
     const double cx = stage.load.opening_coefficient, j = stage.load.filling_exponent;
@@ -139,14 +151,17 @@ class RecoveryFlight {
         const double towards = wind_.direction_deg * std::numbers::pi / 180;
         drift_ += (air.x * std::cos(towards) + air.y * std::sin(towards)) * (b.time - a.time);
       }
-      if (k > 0 || flown_.rows.empty()) flown_.rows.push_back({rows[k], drift_});
+      if (k > 0 || flown_.rows.empty()) flown_.rows.push_back({rows[k], drift_, open_});
     }
   }
 
   const std::vector<RecoveryCanopy>& canopies_;
   const RecoveryRequest& request_;
   const Wind& wind_;
-  double body_area_, factor_, mass_ = 0;
+  double body_area_;
+  DragEnd end_;
+  double mass_ = 0;                // of all [kg]
+  int open_ = 0;                   // parachutes
   double before_ = 0, drift_ = 0;  // drag area of the parachute before [m2], with the wind [m]
   FlightState state_;
   Flown flown_;
@@ -158,6 +173,24 @@ Ranged ranged(const std::vector<Flown>& flights, Of3&& of) {
   return {a, std::min({a, b, c}), std::max({a, b, c})};
 }
 
+/// With the coefficient at one end of its range, at the speed of the flight that is slowest or fastest there; at least
+/// the largest force on the canopy of any flight, or at the low end the smallest of them.
+double design_load_at(DragEnd end, const RecoveryCanopy& canopy, std::size_t i,
+                      const std::vector<Flown>& flights, const RecoveryRequest& request) {
+  const bool high = end == DragEnd::high;
+  const auto faster = [&](const Flown& a, const Flown& b) {
+    return a.stages[i].opening.speed < b.stages[i].opening.speed;
+  };
+  const auto [slowest, fastest] = std::minmax_element(flights.begin(), flights.end(), faster);
+  const FlownStage& stage = (high ? *fastest : *slowest).stages[i];
+  const double mass = stage.load.payload_mass + canopy.mass;
+  double peak = stage.peak_force;
+  for (const Flown& flown : flights)
+    peak = high ? std::max(peak, flown.stages[i].peak_force) : std::min(peak, flown.stages[i].peak_force);
+  return std::max(peak,
+                  opening_load(canopy, coefficient(canopy, end), stage.opening, mass, request).design_load);
+}
+
 RecoveryStage stage_of(const RecoveryCanopy& canopy, std::size_t i, const std::vector<Flown>& flights,
                        const RecoveryRequest& request, std::vector<std::string>& warnings) {
   const FlownStage& flown = flights[0].stages[i];
@@ -165,7 +198,8 @@ RecoveryStage stage_of(const RecoveryCanopy& canopy, std::size_t i, const std::v
   RecoveryStage s;
   s.name = canopy.name, s.title = canopy.resolved.title();
   s.drag_coefficient = canopy.drag.value, s.drag_uncertainty = canopy.drag.uncertainty;
-  s.drag_source = canopy.drag.from, s.reference_area = canopy.area;
+  s.drag_source = canopy.drag.from, s.drag_basis = canopy.drag.basis, s.reference_area = canopy.area;
+  s.descent_drag = canopy.range;
   s.time = flown.opening.time, s.height = flown.opening.height - request.ground;
   s.path_angle = flown.opening.path_angle;
   s.speed = ranged(flights, [&](const Flown& f) { return f.stages[i].opening.speed; });
@@ -174,7 +208,10 @@ RecoveryStage stage_of(const RecoveryCanopy& canopy, std::size_t i, const std::v
   s.design_load = load.design_load, s.design_load_from = load.design_load_from;
   if (flown.peak_force > s.design_load)
     s.design_load = flown.peak_force, s.design_load_from = "largest force of the trajectory";
+  s.least_design_load = design_load_at(DragEnd::low, canopy, i, flights, request);
+  s.largest_design_load = design_load_at(DragEnd::high, canopy, i, flights, request);
   s.margins = load_margins(canopy.resolved, s.design_load);
+  s.hardware = hardware_need(s.design_load, canopy.resolved.margins());
   LoadRequest asked;
   asked.payload_mass = load.payload_mass, asked.height = load.height, asked.ground = request.ground;
   asked.path_angle = std::max(flown.opening.path_angle, 0.0);
@@ -197,18 +234,25 @@ RecoveryStage stage_of(const RecoveryCanopy& canopy, std::size_t i, const std::v
     warnings.push_back(fmt::format("{}: it opens too low: it is not filled after {:.3g} s, when {}",
                                    canopy.name, flown.duration,
                                    i + 1 < flights[0].stages.size() ? "the main opens" : "the rocket lands"));
-  if (s.safe.lowest && s.speed.high > *s.safe.lowest)
+  if (s.safe.lowest && s.speed.high > *s.safe.lowest) {
+    const auto [speed, safe] = rounded_apart(s.speed.high, *s.safe.lowest);
     warnings.push_back(
-        fmt::format("{}: it opens at up to {:.1f} m/s; the fastest safe deployment is {:.1f} "
-                    "m/s (lower end of its range, {})",
-                    canopy.name, s.speed.high, *s.safe.lowest, s.safe.method));
+        fmt::format("{}: it opens at up to {} m/s; the fastest safe deployment is {} m/s (lower end of its "
+                    "range, {})",
+                    canopy.name, speed, safe, s.safe.method));
+  }
   return s;
 }
 
 RecoveryCanopy canopy_of(const char* name, const Settings& resolved, const std::filesystem::path& steady) {
   LoadRequest asked;
   asked.steady = steady;
-  return {name, resolved, opening_drag_coefficient(resolved, asked), nominal_area(resolved.parachute()),
+  const DragCoefficient drag = opening_drag_coefficient(resolved, asked);
+  return {name,
+          resolved,
+          drag,
+          descent_drag(resolved, drag),
+          nominal_area(resolved.parachute()),
           parachute_mass(resolved)};
 }
 
@@ -224,17 +268,16 @@ RecoveryResult run_recovery(const Settings& main, const std::optional<Settings>&
   std::vector<RecoveryCanopy> canopies;
   if (drogue) canopies.push_back(canopy_of("drogue", *drogue, request.drogue_steady));
   canopies.push_back(canopy_of("main", main, request.main_steady));
-  double uncertainty = 0;  // the larger one, for both: a range that contains every combination
-  for (const RecoveryCanopy& canopy : canopies) uncertainty = std::max(uncertainty, canopy.drag.uncertainty);
   const Wind& wind = main.flight().wind;
   const double body = request.body_drag_area.value_or(main.payload().drag_area_m2);
   std::vector<Flown> flights;
-  for (const double factor : {1.0, 1 - uncertainty, 1 + uncertainty})
-    flights.push_back(RecoveryFlight(canopies, request, wind, body, factor).fly_down());
+  for (const DragEnd end : {DragEnd::nominal, DragEnd::low, DragEnd::high})
+    flights.push_back(RecoveryFlight(canopies, request, wind, body, end).fly_down());
   RecoveryResult r;
   r.title = main.title(), r.mass = r.total_mass = request.mass;
   for (const RecoveryCanopy& canopy : canopies) r.total_mass += canopy.mass;
-  r.apogee = request.apogee, r.ground = request.ground, r.wind = wind.speed_m_s;
+  r.apogee = request.apogee, r.ground = request.ground, r.wind = wind;
+  r.apogee_wind = norm(wind_velocity(wind, request.apogee, std::numeric_limits<double>::infinity()));
   for (std::size_t i = 0; i < canopies.size(); ++i)
     r.stages.push_back(stage_of(canopies[i], i, flights, request, r.warnings));
   r.time = ranged(flights, [](const Flown& f) { return f.rows.back().flight.state.time; });
@@ -255,18 +298,19 @@ namespace {
 
 /// All values with a range; the groups of three rows that result.json makes of them are left out.
 void add_ranges(ReportRun& run, const RecoveryResult& r) {
-  ReportTable table{
-      "ranges",
-      "Values with their ranges",
-      "The drag coefficients of all parachutes are decreased and increased by their uncertainty.",
-      {{"stage", ""}, {"quantity", ""}, {"value", ""}, {"low", ""}, {"high", ""}, {"unit", ""}},
-      {}};
+  ReportTable table{"ranges",
+                    "Values with their ranges",
+                    "With the smallest and the largest drag coefficients of all parachutes in descent.",
+                    {{"stage", ""}, {"quantity", ""}, {"value", ""}, {"low", ""}, {"high", ""}, {"unit", ""}},
+                    {}};
   const auto add = [&](const std::string& stage, const std::string& quantity, const Ranged& value,
                        const char* unit) {
     table.rows.push_back({stage, quantity, fmt::format("{:.5g}", value.value),
                           fmt::format("{:.5g}", value.low), fmt::format("{:.5g}", value.high), unit});
   };
   for (const RecoveryStage& s : r.stages) {
+    add(s.name, "drag coefficient on S0", {s.drag_coefficient, s.descent_drag.low, s.descent_drag.high}, "");
+    add(s.name, "design load", {s.design_load, s.least_design_load, s.largest_design_load}, "N");
     add(s.name, "airspeed at the opening", s.speed, "m/s");
     add(s.name, "rate of descent at the end", s.descent_rate, "m/s");
     add(s.name, "duration", s.duration, "s");
@@ -304,12 +348,20 @@ void write_recovery(const std::filesystem::path& folder, const RecoveryResult& r
     Plot picture;
     picture.title = r.title, picture.x.label = "time since apogee [s]";
     picture.y.label = fmt::format("{} [{}]", y.text, y.unit);
-    PlotSeries series;
-    series.markers = false;
-    for (const RecoveryRow& row : r.rows)
-      series.x.push_back(row.flight.state.time), series.y.push_back(value(row));
-    run.plots.push_back({name, title, {"time since apogee", "s"}, y, {{y.text, series.x, series.y}}});
-    picture.series.push_back(std::move(series));
+    ReportPlot page{name, title, {"time since apogee", "s"}, y, {}};
+    for (int open = 0; open <= static_cast<int>(r.stages.size()); ++open) {
+      PlotSeries series;
+      series.markers = false;
+      series.name = open == 0 ? "before the first opening" : r.stages[open - 1].name;
+      for (const RecoveryRow& row : r.rows) {
+        if (row.open != open) continue;
+        series.x.push_back(row.flight.state.time), series.y.push_back(value(row));
+      }
+      if (series.x.size() < 2) continue;
+      page.series.push_back({series.name, series.x, series.y});
+      picture.series.push_back(std::move(series));
+    }
+    run.plots.push_back(std::move(page));
     write_plot(folder / (name + ".png"), picture);
   };
   plot("height", "Height", {"height above the ground", "m"},

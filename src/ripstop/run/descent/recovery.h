@@ -8,7 +8,9 @@
 
 #include "ripstop/case/settings.h"
 #include "ripstop/core/members.h"
+#include "ripstop/flight/wind.h"
 #include "ripstop/parachute/cut.h"
+#include "ripstop/run/descent/flown.h"
 #include "ripstop/run/margins.h"
 #include "ripstop/run/opening/fastest.h"
 #include "ripstop/run/opening/load.h"
@@ -30,7 +32,7 @@ struct RecoveryRequest {
   std::filesystem::path main_steady, drogue_steady;  // runs that provide the drag areas; empty: none
 };
 
-/// A value, and its range with drag coefficients that are smaller or larger by their uncertainty.
+/// A value, and its range with the smallest and largest drag coefficients of all parachutes (DescentDrag).
 struct Ranged {
   double value = 0, low = 0, high = 0;
 };
@@ -45,14 +47,17 @@ void each_member(T& r, Visit&& visit) {
 struct RecoveryStage {
   std::string name, title;                                                // "drogue" or "main"; of its case
   double drag_coefficient = 0, drag_uncertainty = 0, reference_area = 0;  // on S0, relative, [m2]
-  std::string drag_source;
+  std::string drag_source, drag_basis;                                    // "axial", "descent" or "given"
+  DescentDrag descent_drag;                                               // range in descent
   double time = 0, height = 0,
          path_angle = 0;    // of the opening [s], above the ground [m], below the horizon [deg]
   Ranged speed;             // through the air at the opening [m/s]
   double filling_time = 0;  // [s]
-  double lowest_load = 0, highest_load = 0;  // of the methods that apply [N]
-  double design_load = 0;                    // [N]
+  double lowest_load = 0, highest_load = 0;               // of the methods that apply [N]
+  double design_load = 0;                                 // [N]
+  double least_design_load = 0, largest_design_load = 0;  // with the ranges of drag and speed [N]
   std::string design_load_from;
+  HardwareNeed hardware;             // under the design load
   std::optional<Margins> margins;    // under the design load
   SafeSpeed safe;                    // fastest safe deployment by the method of the design load
   Ranged descent_rate;               // at the end [m/s]
@@ -68,6 +73,10 @@ void each_member(T& s, Visit&& visit) {
   visit("drag_coefficient", s.drag_coefficient);
   visit("drag_coefficient_uncertainty", s.drag_uncertainty);
   visit("drag_coefficient_from", s.drag_source);
+  visit("drag_coefficient_basis", s.drag_basis);
+  visit("lowest_drag_coefficient", s.descent_drag.low);
+  visit("highest_drag_coefficient", s.descent_drag.high);
+  visit("drag_coefficient_range_from", s.descent_drag.from);
   visit("reference_area_m2", s.reference_area);
   visit("time_s", s.time);
   visit("height_m", s.height);
@@ -77,7 +86,10 @@ void each_member(T& s, Visit&& visit) {
   visit("lowest_load_n", s.lowest_load);
   visit("highest_load_n", s.highest_load);
   visit("design_load_n", s.design_load);
+  visit("lowest_design_load_n", s.least_design_load);
+  visit("highest_design_load_n", s.largest_design_load);
   visit("design_load_from", s.design_load_from);
+  visit("required_hardware", s.hardware);
   visit("margins", s.margins);
   visit("fastest_safe_deployment", s.safe);
   visit("descent_rate_m_s", s.descent_rate);
@@ -102,11 +114,13 @@ void each_member(T& s, Visit&& visit) {
 struct RecoveryRow {
   FlightRow flight;
   double drift = 0;  // with the wind since apogee [m]
+  int open = 0;      // parachutes that have opened
 };
 template <Of<RecoveryRow> T, class Visit>
 void each_member(T& row, Visit&& visit) {
   each_member(row.flight, visit);
   visit("drift_m", row.drift);
+  visit("opened_parachutes", row.open);
 }
 
 /// result.json of `ripstop recovery`.
@@ -114,7 +128,8 @@ struct RecoveryResult {
   std::string title;
   double mass = 0, total_mass = 0;  // without and with parachutes [kg]
   double apogee = 0, ground = 0;    // [m]
-  double wind = 0;                  // at its reference height [m/s]
+  Wind wind;                        // profile over height
+  double apogee_wind = 0;           // speed at apogee [m/s]
   std::vector<RecoveryStage> stages;
   Ranged time;                   // from apogee to the ground [s]
   Ranged drift;                  // with the wind [m]
@@ -131,7 +146,10 @@ void each_member(T& r, Visit&& visit) {
   visit("total_mass_kg", r.total_mass);
   visit("apogee_m", r.apogee);
   visit("ground_m", r.ground);
-  visit("wind_m_s", r.wind);
+  visit("wind_m_s", r.wind.speed_m_s);
+  visit("wind_reference_height_m", r.wind.reference_height_m);
+  visit("wind_exponent", r.wind.exponent);
+  visit("apogee_wind_m_s", r.apogee_wind);
   visit("stages", r.stages);
   visit("time_s", r.time);
   visit("drift_m", r.drift);
@@ -145,8 +163,9 @@ std::string to_json(const RecoveryResult& result);
 
 /// A point mass from apogee to the ground: body alone during the delay, then with the first parachute, then with the
 /// main. Opening loads are those of run_load() at the speed, height and path of the flight. The design load of a stage
-/// is at least the largest force on its canopy along the trajectory. The canopies follow the wind at once. Wind:
-/// [flight.wind] of the main's case. Throws Error(usage) as run_load(), and for a main that opens above the apogee.
+/// is at least the largest force on its canopy along the trajectory; its range combines the smallest coefficient with the
+/// lowest speed, and the largest with the highest. The canopies follow the wind at once. Wind: [flight.wind] of the
+/// main's case. Throws Error(usage) as run_load(), and for a main that opens above the apogee.
 RecoveryResult run_recovery(const Settings& main, const std::optional<Settings>& drogue,
                             const RecoveryRequest& request);
 

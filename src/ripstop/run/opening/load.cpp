@@ -10,6 +10,7 @@
 #include "ripstop/case/payload.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/positive.h"
+#include "ripstop/core/words.h"
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/descent.h"
 #include "ripstop/flight/validity.h"
@@ -131,7 +132,7 @@ void add_methods(const OpeningConditions& c, double ludtke_exponent, double inte
   stage.methods.push_back({infinite_mass_method, infinite_mass_load(c).load, 0, x.factor > hardly_slowed,
                            x.factor > hardly_slowed
                                ? "the speed decreases little during filling"
-                               : "an upper bound on a horizontal path: the speed decreases during filling"});
+                               : "upper bound on a horizontal path: the speed decreases during filling"});
   OpeningConditions by_ludtke = c;
   by_ludtke.exponent = ludtke_exponent;
   const OpeningLoad pflanz = pflanz_load(c), ludtke = ludtke_load(by_ludtke);
@@ -273,18 +274,22 @@ void fly_record(const Settings& resolved, const LoadRequest& request, LoadResult
 void choose_design_load(const Settings& resolved, const LoadRequest& request, LoadResult& r) {
   for (const StageLoads& stage : r.stages)
     r.design_load = std::max(r.design_load, stage.methods.front().load);
-  r.design_load_from = "infinite mass, C_x C_D S0 q";
+  r.design_load_from = "infinite mass, C_x C_D S0 q", r.design_method = infinite_mass_method;
   for (const StageLoads& stage : r.stages)
     for (const MethodLoad& m : stage.methods)
       if (m.applies && m.load > r.design_load)
-        r.design_load = m.load, r.design_load_from = m.method + ", more than infinite mass";
+        r.design_load = m.load, r.design_method = m.method,
+        r.design_load_from = m.method + ", more than infinite mass";
   if (request.measured_load) {
     r.design_load = *request.measured_load, r.design_load_from = "measured, as given";
+    r.design_method.clear();
   } else if (r.record_peak_load && request.reefing.empty()) {
     r.design_load = *r.record_peak_load, r.design_load_from = "computed opening " + request.opening.string();
+    r.design_method = computed_method;
   }
   r.line_load_factor = experience(resolved.parachute()).line_load_factor;
   r.margins = load_margins(resolved, r.design_load);
+  r.hardware = hardware_need(r.design_load, resolved.margins());
   for (const std::string& text : margin_warnings(r.margins)) r.warnings.push_back(text);
   const double mach = request.speed / standard_air(r.height).sound_speed;
   for (const std::string& text : outside_range(infinite_mass_model, {{"Mach number", mach}}))
@@ -300,23 +305,25 @@ std::string to_json(const LoadResult& result) {
 DragCoefficient opening_drag_coefficient(const Settings& resolved, const LoadRequest& request) {
   if (request.drag_coefficient) {
     require_positive("drag coefficient", *request.drag_coefficient);
-    return {*request.drag_coefficient, "given", usual_drag_uncertainty};
+    return {*request.drag_coefficient, "given", usual_drag_uncertainty, "given"};
   }
   if (!request.steady.empty()) {
     const CarryingRun run = carrying_run(request.steady);
     return {run.drag_area / nominal_area(resolved.parachute()),
             fmt::format("{} {}: {:.4g} m2", run.basis == "axial" ? "steady run" : "flight",
                         request.steady.string(), run.drag_area),
-            std::max(usual_drag_uncertainty, run.uncertainty)};
+            std::max(usual_drag_uncertainty, run.uncertainty), run.basis};
   }
   if (resolved.inflation().drag_coefficient)
-    return {*resolved.inflation().drag_coefficient, "inflation.drag_coefficient of the case",
-            usual_drag_uncertainty};
+    return {
+        *resolved.inflation().drag_coefficient, "inflation.drag_coefficient of the case",
+        usual_drag_uncertainty,
+        resolved.inflation().drag_coefficient_basis == InflationSettings::Basis::axial ? "axial" : "descent"};
   const KnownRange known = experience(resolved.parachute()).drag_coefficient;
   if (known.high > 0)
     return {0.5 * (known.low + known.high),
             fmt::format("middle of {:.2f} to {:.2f} (Knacke)", known.low, known.high),
-            std::max(usual_drag_uncertainty, (known.high - known.low) / (known.high + known.low))};
+            std::max(usual_drag_uncertainty, (known.high - known.low) / (known.high + known.low)), "descent"};
   throw Error(ExitCode::usage,
               "no drag coefficient of this family is known: give --drag-coefficient, --steady RUN or "
               "inflation.drag_coefficient in the case");
@@ -336,13 +343,16 @@ LoadResult run_load(const Settings& resolved, const LoadRequest& request) {
   r.height = deployment_height(resolved, request);
   choose_coefficients(resolved, request, r);
   const double mass = r.payload_mass + r.parachute_mass, area = r.drag_coefficient * r.reference_area;
-  if (request.speed <= slowest_opening(mass, area, r.height, request.path_angle))
+  if (request.speed <= slowest_opening(mass, area, r.height, request.path_angle)) {
+    const auto [rate, speed] =
+        rounded_apart(terminal_speed(mass, area, standard_air(r.height).density), request.speed);
     throw Error(
         ExitCode::usage,
         fmt::format(
-            "a descent rate of {:.3g} m/s is above the {:.3g} m/s of the deployment: the payload still "
+            "a descent rate of {} m/s is above the {} m/s of the deployment: the payload still "
             "accelerates under the open canopy; take a higher speed, a smaller mass or a larger canopy",
-            terminal_speed(mass, area, standard_air(r.height).density), request.speed));
+            rate, speed));
+  }
   fly_stages(request, r);
   if (!request.opening.empty()) fly_record(resolved, request, r);
   choose_design_load(resolved, request, r);

@@ -101,6 +101,8 @@ struct LoadResult {
   std::vector<StageLoads> stages;
   double design_load = 0;                  // load for which lines and riser are to be designed [N]
   std::string design_load_from;            // measured, computed or infinite mass
+  std::string design_method;               // of a stage, whose load this is; empty: measured
+  HardwareNeed hardware;                   // under the design load
   double line_load_factor = 1;             // largest line load over an equal share, of the family
   std::optional<Margins> margins;          // of lines and riser under the design load
   double peak_load = 0, peak_time = 0;     // of the trajectory [N], [s]
@@ -131,6 +133,8 @@ void each_member(T& r, Visit&& visit) {
   visit("stages", r.stages);
   visit("design_load_n", r.design_load);
   visit("design_load_from", r.design_load_from);
+  visit("design_method", r.design_method);
+  visit("required_hardware", r.hardware);
   visit("line_load_factor", r.line_load_factor);
   visit("margins", r.margins);
   visit("peak_load_n", r.peak_load);
@@ -152,6 +156,7 @@ struct DragCoefficient {
   double value = 0;
   std::string from;
   double uncertainty = 0;  // relative
+  std::string basis;       // "axial", "descent" or "given"
 };
 /// Relative uncertainty of a drag coefficient whose own is smaller or not known (assumed; the rates of descent of a flight
 /// on two grids differ by 4 %, hence its coefficients by 8 %: docs/guide/fly.md).

@@ -63,6 +63,12 @@ ReportTable table_of_rows(const std::string& id, const Json& rows) {
   return table;
 }
 
+/// For the titles of the tables in a row: the name of its stage, else its number.
+std::string row_name(const Json& row, std::size_t i) {
+  const auto stage = row.find("stage");
+  return stage != row.end() && stage->is_string() ? stage->get<std::string>() : fmt::format("{}", i + 1);
+}
+
 void add_group(std::vector<ReportTable>& tables, const std::string& key, const Json& group) {
   std::vector<std::pair<std::string, const Json*>> nested;
   ReportTable table{key, heading(in_words(key).text), "", {{"", ""}, {"", ""}, {"unit", ""}}, {}};
@@ -80,7 +86,8 @@ void add_group(std::vector<ReportTable>& tables, const std::string& key, const J
     for (std::size_t i = 0; i < group.size(); ++i)
       for (const auto& [name, value] : group[i].items())
         if (is_group(value))
-          nested.emplace_back(group.size() > 1 ? fmt::format("{} {}", i + 1, name) : name, &value);
+          nested.emplace_back(group.size() > 1 ? fmt::format("{} {}", row_name(group[i], i), name) : name,
+                              &value);
   }
   if (!table.rows.empty()) tables.push_back(table);
   for (const auto& [name, value] : nested) add_group(tables, key + " " + name, *value);
@@ -125,6 +132,7 @@ ReportTable bill_table(const Settings& resolved) {
                     {{"part", ""},
                      {"material", ""},
                      {"count", ""},
+                     {"cut each", ""},
                      {"finished", ""},
                      {"cut", ""},
                      {"unit", ""},
@@ -132,8 +140,9 @@ ReportTable bill_table(const Settings& resolved) {
                     {}};
   for (const BillRow& row : pattern.bill.rows)
     table.rows.push_back({row.part, row.material, fmt::format("{}", row.count),
-                          fmt::format("{:.3f}", row.finished), fmt::format("{:.3f}", row.cut),
-                          row.is_cloth ? "m²" : "m", fmt::format("{:.1f}", 1000 * row.mass)});
+                          fmt::format("{:.3f}", row.cut_each), fmt::format("{:.3f}", row.finished),
+                          fmt::format("{:.3f}", row.cut), row.is_cloth ? "m²" : "m",
+                          fmt::format("{:.1f}", 1000 * row.mass)});
   return table;
 }
 

@@ -65,6 +65,9 @@ PatternResult run_pattern(const Settings& resolved, const Allowances& allowances
   result.packing_density = packing_density;
   result.allowances = allowances;
   result.pattern = cut_pattern(resolved);
+  result.hems = hems_of(result.pattern);
+  result.line_length = resolved.parachute().lines.length_m;
+  result.line_on_canopy = result.pattern.line_on_canopy;
   result.bill = parachute_bill(resolved, allowances, packing_density);
   for (const Piece& piece : result.pattern.pieces)
     for (const char* ending : {".dxf", ".svg"}) result.drawings.push_back(drawing_name(piece, ending));

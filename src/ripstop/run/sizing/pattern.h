@@ -22,7 +22,15 @@ void each_member(T& row, Visit&& visit) {
   visit("is_cloth", row.is_cloth);
   visit("finished", row.finished);
   visit("cut", row.cut);
+  visit("cut_each", row.cut_each);
   visit("mass_kg", row.mass);
+}
+
+template <Of<CutLength> T, class Visit>
+void each_member(T& part, Visit&& visit) {
+  visit("name", part.name);
+  visit("count", part.count);
+  visit("length_m", part.length);
 }
 
 /// result.json of `ripstop pattern`; finished and cut amounts are [m2] of cloth, else [m].
@@ -32,8 +40,10 @@ struct PatternResult {
   double packing_density = 0;               // [kg/m3]
   Allowances allowances;
   Bill bill;
-  std::vector<std::string> drawings;  // names of the files of the pieces
-  CutPattern pattern;                 // not in result.json: it is in the drawings
+  std::vector<CutLength> hems;                 // free edges of the cloth
+  double line_length = 0, line_on_canopy = 0;  // of each suspension line: to the skirt, and beyond it [m]
+  std::vector<std::string> drawings;           // names of the files of the pieces
+  CutPattern pattern;                          // not in result.json: it is in the drawings
 };
 template <Of<PatternResult> T, class Visit>
 void each_member(T& r, Visit&& visit) {
@@ -48,6 +58,9 @@ void each_member(T& r, Visit&& visit) {
   visit("line_loop_m", r.allowances.line_loop);
   visit("tape_overlap_m", r.allowances.tape_overlap);
   visit("bill", r.bill.rows);
+  visit("hems", r.hems);
+  visit("line_length_m", r.line_length);
+  visit("line_on_canopy_m", r.line_on_canopy);
   visit("drawings", r.drawings);
 }
 std::string to_json(const PatternResult& result);

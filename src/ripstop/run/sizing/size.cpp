@@ -15,6 +15,7 @@
 #include "ripstop/core/positive.h"
 #include "ripstop/core/toml/fields.h"
 #include "ripstop/core/toml/problem.h"
+#include "ripstop/core/words.h"
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/validity.h"
 #include "ripstop/run/json.h"
@@ -283,6 +284,8 @@ void warn(const SizeRequest& request, SizeResult& r) {
 
 void describe_parachute(const SizeRequest& request, SizeResult& r) {
   r.given.inflation.drag_coefficient = r.drag_coefficient;
+  r.given.inflation.drag_coefficient_basis =
+      r.drag_basis == "descent" ? InflationSettings::Basis::descent : InflationSettings::Basis::axial;
   find_opening(request, r);
   r.line_used = used_of(r, suspension_line(r.given), "line");
   const Design& design = r.given.parachute;
@@ -331,12 +334,8 @@ Case example_case(const SizeRequest& request, const SizeResult& r) {
 namespace {
 
 std::optional<FlownDrag> flown_drag(const std::string& family, const std::string& cloth) {
-  static const auto data = nlohmann::json::parse(read_file(data_directory() / "examples/flown.json"));
-  for (const auto& row : data.at("flights"))
-    if (row.at("family") == family && row.at("canopy_material") == cloth)
-      return FlownDrag{row.at("drag_coefficient"), row.at("standard_error"), row.at("half_swings"),
-                       fmt::format("{}, {}", data.at("made_by").get<std::string>(),
-                                   data.at("made_on").get<std::string>())};
+  for (const FlownDrag& row : flown_drags())
+    if (row.family == family && row.cloth == cloth) return row;
   return {};
 }
 
@@ -470,9 +469,10 @@ void verify_size(const SizeRequest& request, SizeResult& r,
                                 : "axial, computed by --verify at the descent rate";
     describe_parachute(request, r);
   }
-  throw Error(ExitCode::not_converged,
-              fmt::format("--verify: after {} runs the descent rate is {:.3g} m/s instead of {:g}", most,
-                          r.checks.back().descent_rate, request.descent_rate));
+  const auto [last, wanted] = rounded_apart(r.checks.back().descent_rate, request.descent_rate);
+  throw Error(
+      ExitCode::not_converged,
+      fmt::format("--verify: after {} runs the descent rate is {} m/s instead of {}", most, last, wanted));
 }
 
 }  // namespace ripstop::inline run

@@ -11,18 +11,12 @@
 #include "ripstop/case/case.h"
 #include "ripstop/core/members.h"
 #include "ripstop/parachute/cut.h"
+#include "ripstop/run/descent/flown.h"
 #include "ripstop/run/flight/flight.h"
 #include "ripstop/run/opening/load.h"
 #include "ripstop/run/steady/steady.h"
 
 namespace ripstop::inline run {
-
-/// The coefficient in descent of a family as Ripstop has flown it: a row of examples/flown.json.
-struct FlownDrag {
-  double drag_coefficient = 0, standard_error = 0;  // on S0
-  int half_swings = 0;
-  std::string made;  // command and machine
-};
 
 /// The drag of a family as Ripstop has computed it: a row of examples/families.json.
 struct FamilyDrag {

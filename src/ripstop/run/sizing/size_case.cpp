@@ -130,6 +130,7 @@ std::string size_case_text(const SizeRequest& request, const SizeResult& r) {
   text += fmt::format("speed_m_s = {}  # start value of the iteration\n", r.descent_rate);
   text +=
       fmt::format("\n[inflation]\ndrag_coefficient = {}  # on S0, for ripstop load\n", r.drag_coefficient);
+  if (r.drag_basis == "descent") text += "drag_coefficient_basis = \"descent\"\n";
   return text;
 }
 

@@ -8,6 +8,7 @@
 
 #include "ripstop/case/bodies.h"
 #include "ripstop/case/settings.h"
+#include "ripstop/core/words.h"
 #include "ripstop/flight/validity.h"
 #include "ripstop/flow/extent.h"
 #include "ripstop/material/fit_material.h"
@@ -28,15 +29,16 @@ std::vector<std::string> mesh_warnings(const Settings& resolved) {
 }
 
 std::vector<std::string> grid_warnings(const Settings& resolved) {
-  const double enough = quality_limit("cells_across").warn;
+  const QualityLimit& enough = quality_limit("cells_across");
   if (resolved.coupling().load != CanopyLoad::of_flow) return {};
   const double across = cells_across(resolved);
-  if (across >= enough) return {};
+  if (!enough.beyond(across, enough.warn)) return {};
+  const auto [cells, least] = rounded_apart(across, enough.warn, 2);
   return {
-      fmt::format("{:.0f} flow cells across the inflated canopy: with fewer than {:.0f} the local load "
-                  "becomes discontinuous as cloth crosses grid cells, and the coupling may not converge; "
-                  "increase flow.cells, or set coupling.load = \"uniform\"",
-                  across, enough)};
+      fmt::format("{} flow cells across the inflated canopy: with fewer than {} the local load becomes "
+                  "discontinuous as cloth crosses grid cells, and the coupling may not converge; increase "
+                  "flow.cells, or set coupling.load = \"uniform\"",
+                  cells, least)};
 }
 
 namespace {
@@ -54,11 +56,13 @@ std::vector<std::string> body_warnings(const Settings& resolved) {
     const Extent e = extent_of(body.surface);
     const double cell = grid.width(0, grid.cell_at(0, 0.5 * (e.low[0] + e.high[0])));
     const double across = std::min(e.high[0] - e.low[0], e.high[1] - e.low[1]) / cell;
-    if (across < enough)
+    if (across < (1 - 1e-9) * enough) {
+      const auto [cells, least] = rounded_apart(across, enough, 2);
       warnings.push_back(
-          fmt::format("body.{}: {:.1f} flow cells across, at least {:g} are needed; increase flow.cells, or "
-                      "narrow flow.core.size_m",
-                      body.name, across, enough));
+          fmt::format("body.{}: {} flow cells across, at least {} are needed; increase flow.cells, or narrow "
+                      "flow.core.size_m",
+                      body.name, cells, least));
+    }
   }
   return warnings;
 }
