@@ -181,26 +181,63 @@ class StudioPage(unittest.TestCase):
         self.assertEqual([error for error in self.browser.errors if "400" not in error], [])
 
     def test_two_designs_are_side_by_side(self):
-        case = (ROOT / "examples/conical/case.toml").read_text()
-        (self.folder / "a.toml").write_text(case)
-        self.open()
-        self.until("document.querySelector('[data-part=loads]').dataset.file === 'a.toml'")
+        self.size_a_case()
         self.click("#copy")
-        self.until("[...document.querySelectorAll('[data-control=against] option')].some((one) => one.value === 'a-2.toml')")
-        self.assertEqual((self.folder / "a-2.toml").read_text(), case)
+        self.until("[...document.querySelectorAll('[data-control=against] option')].some((one) => one.value === 'my-canopy-2.toml')")
+        self.assertEqual((self.folder / "my-canopy-2.toml").read_text(), (self.folder / "my-canopy.toml").read_text())
         self.click("#notice button")
-        self.type_into("#key-parachute\\.lines\\.length_m", "1.5")
-        self.until("!document.getElementById('undo').disabled")
-        self.type_into("[data-control=against]", "a-2.toml")
-        self.until("document.querySelector('[data-part=loads]').dataset.against === 'a-2.toml'")
+        self.enter("parachute.vent_diameter_m", "0.6")
+        self.type_into("[data-control=against]", "my-canopy-2.toml")
+        self.until("document.querySelector('[data-part=loads]').dataset.against === 'my-canopy-2.toml'")
         self.until("[...document.querySelectorAll('.panes [data-part=timing]')].filter((one) => ['equilibrium', 'final'].includes(one.dataset.state)).length === 2")
         self.until("Studio.design().packed > 0 && Studio.design().otherPacked > 0 && document.querySelectorAll('[data-part=facts] tr:first-child td').length === 4")
-        mass = self.browser.evaluate("[...document.querySelectorAll('[data-part=facts] tr')].find((row) => row.textContent.startsWith('lines')).innerText.split('\\t')")
-        self.assertGreater(float(mass[1]), float(mass[2]))
+        vent = self.browser.evaluate("[...document.querySelectorAll('[data-part=facts] tr')].find((row) => row.textContent.startsWith('vent')).innerText.split('\\t')")
+        self.assertGreater(float(vent[1]), 3 * float(vent[2]))
         self.picture("compare")
         self.type_into("[data-control=against]", "")
         self.until("document.querySelectorAll('[data-part=facts] tr:first-child td').length === 2")
         self.assertEqual(self.browser.errors, [])
+
+    def test_messages_name_the_fields_of_the_page(self):
+        self.open()
+        self.until("document.getElementById('create').open")
+        for field, value, name in (("mass", "x y", "Payload mass"), ("rate", "-1", "Descent rate"), ("speed", "", "Largest deployment speed"), ("height", "1e9", "Height above sea level")):
+            before = self.browser.evaluate(f"document.getElementById('create-{field}').value")
+            self.browser.evaluate("document.getElementById('create-problem').textContent = ''")
+            self.type_into(f"#create-{field}", value)
+            self.click("#create-go")
+            problem = self.until("document.getElementById('create-problem').textContent")
+            self.assertIn(f'"{name}"', problem)
+            self.assertNotIn("--", problem)
+            self.type_into(f"#create-{field}", before)
+        self.picture("new-case-problem")
+        self.type_into("#create-mass", "5 lb")
+        self.click("#create-go")
+        self.until("document.querySelector('[data-part=loads]').dataset.file === 'my-canopy.toml' && document.querySelector('[data-part=loads] table')")
+        self.assertIn("mass_kg = 2.26796", (self.folder / "my-canopy.toml").read_text())
+        self.type_into("[data-control=speed]", "fast")
+        self.assertIn('"Deployment speed" = fast', self.until("document.querySelector('[data-part=loads] .problem')?.textContent ?? ''"))
+
+        # Every text field of every run: the line of the failed run names it.
+        self.browser.evaluate("""(async () => {
+            const runs = Studio.runs(), wrong = [];
+            for (const [command, options] of Object.entries(runs.options))
+                for (const [option, text, value, kind] of options) if (!kind) {
+                    const others = Object.fromEntries(options.filter((one) => one[2] && one[0] !== option).map((one) => [one[0], one[2]]));
+                    await Server.post('/api/jobs/start', { name: `wrong-${wrong.length}`, command, case: 'my-canopy.toml', options: { ...others, [option]: 'x y' } });
+                    wrong.push([command, Words.name(text)]);
+                }
+            window.wrong = wrong;
+        })()""")
+        wrong = self.until("window.wrong")
+        self.assertGreater(len(wrong), 25)
+        self.click("[data-view=runs]")
+        self.until(f"document.querySelectorAll('[data-job][data-state=failed]').length === {len(wrong)}")
+        lines = self.browser.evaluate("Object.fromEntries([...document.querySelectorAll('[data-job]')].map((one) => [one.dataset.job, one.querySelector('.line').textContent]))")
+        for i, (command, name) in enumerate(wrong):
+            self.assertIn(f'"{name}"', lines[f"wrong-{i}"], command)
+            self.assertNotIn("--", lines[f"wrong-{i}"], command)
+        self.picture("runs-failed")
 
     def test_tables_that_a_file_can_repeat_are_edited_in_the_form(self):
         case = (ROOT / "examples/conical/case.toml").read_text().replace("cloth_nodes = 12000", "cloth_nodes = 1000")

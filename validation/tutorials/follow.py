@@ -3,12 +3,14 @@
 
     make test-tutorials        (or: follow.py --ripstop build-check/bin/ripstop --python build-check/python 1 3)
 
-Each tutorial is a page of docs/tutorials. Its files are written and its commands run in the order of the page. Every line of output on
+Each tutorial is a page of docs/tutorials. Its files are written and its commands run in the order of the page. Tutorial 7 is followed in a
+headless browser by tests/studio/tutorial.py, which presses the labels that its page names. Every line of output on
 the page must be in the output of its commands or in a file of the example. The same applies to every number in its prose with three
 digits or more and a decimal point. Writes docs/tables/tutorials.md: processor time and wall time. Exit code 1 where a page and its outputs differ.
 """
 
 import argparse
+import json
 import os
 import pathlib
 import re
@@ -89,13 +91,23 @@ def follow(page, folder, environment):
     return commands, compared, faults, seconds
 
 
-# Tutorial 7 is in the browser: tests/studio/browser_test.py does its steps, and tests/docs compares the labels that it names.
-FOLLOWED = "123456"
+def follow_in_browser(program):
+    """As follow(); compared are labels that are pressed or filled in, and states of the page. The time is that of the server and its runs."""
+    begin = time.monotonic()
+    ran = subprocess.run([sys.executable, "-B", tables.ROOT / "tests/studio/tutorial.py", program], capture_output=True, text=True, check=False)
+    seconds = time.monotonic() - begin
+    if ran.returncode != 0:
+        return 2, 0, [ran.stderr[-2000:]], (0, seconds)
+    result = json.loads(ran.stdout)
+    return 2, result["labels"] + result["compared"], [], (result["processor_s"], seconds)
+
+
+FOLLOWED = "1234567"
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("tutorials", nargs="*", help="their numbers; default: 1 to 6, which are commands. A later one may need the files of the first")
+    parser.add_argument("tutorials", nargs="*", help="their numbers; default: all. A later one may need the files of the first")
     parser.add_argument("--ripstop", type=pathlib.Path, default=pathlib.Path("build-check/bin/ripstop"))
     parser.add_argument("--python", type=pathlib.Path, default=pathlib.Path("build-check/python"), help="folder of the package ripstop")
     options = parser.parse_args()
@@ -114,7 +126,8 @@ def main():
             if kind == "file":
                 (clone / text[0]).write_text(text[1])
         for path in pages:
-            commands, compared, faults, (processor, wall) = follow(Page(path), clone, environment)
+            in_browser = path.name == "7-design-in-the-browser.md"
+            commands, compared, faults, (processor, wall) = follow_in_browser(programs / "ripstop") if in_browser else follow(Page(path), clone, environment)
             title = path.read_text().splitlines()[0].lstrip("# ")
             new[title] = [title, str(commands), str(compared), f"{processor:.0f}", f"{wall:.0f}"]
             failed = failed or bool(faults)
@@ -122,8 +135,9 @@ def main():
     titles = [path.read_text().splitlines()[0].lstrip("# ") for path in sorted((tables.ROOT / "docs/tutorials").glob("*.md"))]
     rows = {row[0]: row for row in tables.rows_of("tutorials")} | new
     lines = ["The tutorials, followed from their pages in a fresh clone: each command is executed, and the numbers and lines of output on the "
-             "page are compared with its output. The processor time is that of all threads of the commands. The wall time includes other "
-             "work on the machine. A tutorial without a row was not measured.", "",
+             "page are compared with its output. A parachute in the browser is followed in headless Chromium: the labels that the page names are "
+             "pressed or filled in. The processor time is that of all threads of the commands, without the browser. The wall time includes "
+             "other work on the machine. A tutorial without a row was not measured.", "",
              *tables.table(HEAD, [rows[title] for title in titles if title in rows])]
     if not failed:
         tables.write("tutorials", "Times of the tutorials", "make test-tutorials", tables.here(), lines)

@@ -225,12 +225,11 @@ std::string Actions::copy(const std::string& file, const std::string& from) {
   return read(file);
 }
 
-std::string Actions::size(const std::string& file, const std::string& family, double mass, double rate,
-                          double speed, double height) {
+std::string Actions::size(const std::string& file, const std::string& family, const std::string& mass,
+                          const std::string& rate, const std::string& speed, const std::string& height) {
   new_case_path(file);
-  must({"size", fmt::format("--mass={}", mass), fmt::format("--descent-rate={}", rate),
-        fmt::format("--deployment-speed={}", speed), fmt::format("--height={}", height), "--family=" + family,
-        "--out=" + file});
+  must({"size", "--mass=" + mass, "--descent-rate=" + rate, "--deployment-speed=" + speed,
+        "--height=" + height, "--family=" + family, "--out=" + file});
   return read(file);
 }
 

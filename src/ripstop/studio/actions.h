@@ -40,8 +40,8 @@ class Actions {
   /// A new case file: a copy of the case `from`.
   std::string copy(const std::string& file, const std::string& from);
   /// A new case file by `ripstop size`.
-  std::string size(const std::string& file, const std::string& family, double mass, double rate, double speed,
-                   double height);
+  std::string size(const std::string& file, const std::string& family, const std::string& mass,
+                   const std::string& rate, const std::string& speed, const std::string& height);
 
   /// Shape of a view under a pressure [Pa], empty: the dynamic pressure of the case; first with at most `nodes` nodes
   /// of cloth. Ends an earlier call of the view.

@@ -15,6 +15,7 @@
 
 RIPSTOP_STUDIO_FILE(ripstop_studio_skeleton, "studio.html")
 RIPSTOP_STUDIO_FILE(ripstop_studio_css, "studio.css")
+RIPSTOP_STUDIO_FILE(ripstop_studio_words, "words.js")
 RIPSTOP_STUDIO_FILE(ripstop_studio_server, "server.js")
 RIPSTOP_STUDIO_FILE(ripstop_studio_form, "form.js")
 RIPSTOP_STUDIO_FILE(ripstop_studio_shape, "shape.js")
@@ -51,7 +52,8 @@ std::string studio_page(const std::string& nonce) {
   // The report's scripts but for the one that fills its page.
   for (const Asset& script : report_scripts())
     if (std::string_view(script.name) != "main.js") add(script.text);
-  for (const Asset& script : std::vector<Asset>{{"server.js", RIPSTOP_EMBEDDED_TEXT(ripstop_studio_server)},
+  for (const Asset& script : std::vector<Asset>{{"words.js", RIPSTOP_EMBEDDED_TEXT(ripstop_studio_words)},
+                                                {"server.js", RIPSTOP_EMBEDDED_TEXT(ripstop_studio_server)},
                                                 {"form.js", RIPSTOP_EMBEDDED_TEXT(ripstop_studio_form)},
                                                 {"shape.js", RIPSTOP_EMBEDDED_TEXT(ripstop_studio_shape)},
                                                 {"design.js", RIPSTOP_EMBEDDED_TEXT(ripstop_studio_design)},

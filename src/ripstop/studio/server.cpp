@@ -71,10 +71,10 @@ struct Body {
       throw Error(ExitCode::usage, fmt::format("the request has no text {}", name));
     return json.at(name).get<std::string>();
   }
-  double number(const char* name) const {
-    if (!json.is_object() || !json.contains(name) || !json.at(name).is_number())
-      throw Error(ExitCode::usage, fmt::format("the request has no number {}", name));
-    return json.at(name).get<double>();
+  /// A number, or a text such as "5 lb" that a command reads.
+  std::string quantity(const char* name) const {
+    if (json.is_object() && json.contains(name) && json.at(name).is_number()) return json.at(name).dump();
+    return text(name);
   }
 };
 
@@ -219,8 +219,8 @@ void StudioServer::Parts::add_writing() {
        [this](const Body& b) { return actions.create(b.text("file"), b.text("family")); });
   post("/api/case/copy", [this](const Body& b) { return actions.copy(b.text("file"), b.text("from")); });
   post("/api/case/size", [this](const Body& b) {
-    return actions.size(b.text("file"), b.text("family"), b.number("mass"), b.number("rate"),
-                        b.number("speed"), b.number("height"));
+    return actions.size(b.text("file"), b.text("family"), b.quantity("mass"), b.quantity("rate"),
+                        b.quantity("speed"), b.quantity("height"));
   });
 }
 

@@ -23,6 +23,7 @@ class Design {
     this.mass = this.asked("mass", "2.4");
     this.speed = this.asked("speed", "20");
     this.drag = this.asked("drag-coefficient", "");
+    this.asking = element("div", { class: "fields" }, element("label", {}, "Payload mass [kg]", this.mass), element("label", {}, "Deployment speed [m/s]", this.speed), element("label", {}, "Drag coefficient on S0", this.drag));
     this.drag.placeholder = "of the family";
     this.stale = element("p", { class: "muted", hidden: true, "data-part": "stale" }, "The case has problems. These numbers are those of the last valid case.");
     this.facts = element("div", { "data-part": "facts" });
@@ -30,8 +31,7 @@ class Design {
     this.node = element("div", { class: "view design", id: "view-design" }, this.form.node,
       element("div", { class: "middle" },
         element("div", { class: "above" }, element("label", {}, "Dynamic pressure [Pa] ", this.pressure), element("label", {}, "Compare with ", this.choice)), this.panes),
-      element("aside", { class: "numbers", "aria-label": "Numbers" }, this.stale, this.facts, element("h2", {}, "Descent and opening"),
-        element("div", { class: "fields" }, element("label", {}, "Payload mass [kg]", this.mass), element("label", {}, "Deployment speed [m/s]", this.speed), element("label", {}, "Drag coefficient on S0", this.drag)), this.loads));
+      element("aside", { class: "numbers", "aria-label": "Numbers" }, this.stale, this.facts, element("h2", {}, "Descent and opening"), this.asking, this.loads));
     this.pieces = element("div", { class: "pieces" });
     this.bill = element("div", { class: "tables" });
     this.patternNode = element("div", { class: "view", id: "view-pattern" },
@@ -43,7 +43,7 @@ class Design {
   }
 
   asked(name, usual) {
-    return element("input", { inputmode: "decimal", "data-control": name, value: usual, onchange: () => this.drawLoads() });
+    return element("input", { inputmode: "decimal", "data-control": name, "data-option": `--${name}`, value: usual, onchange: () => this.drawLoads() });
   }
 
   /** The case files of the folder, of which one can be compared with this. */
@@ -218,7 +218,7 @@ class Design {
   }
 
   static remarks(title, texts) {
-    return element("details", { hidden: !texts.length }, element("summary", {}, `${title} (${texts.length})`), element("ul", {}, texts.map((text) => element("li", {}, text))));
+    return element("details", { hidden: !texts.length }, element("summary", {}, `${title} (${texts.length})`), element("ul", {}, texts.map((text) => element("li", {}, Words.shown(text)))));
   }
 
   static factRows(check, packed) {
@@ -263,8 +263,11 @@ class Design {
   static loadRows(load) {
     const stage = load.stages[0];
     return {
-      descent: [["descent", load.steady_speed_m_s, "m/s"], ["drag coefficient", load.drag_coefficient], ["filling time", stage.filling_time_s, "s"]],
-      methods: stage.methods.map((method) => [method.method, method.load_n, "N", !method.applies]),
+      descent: [[`descent at ${Math.round(load.height_m - load.steady_drop_m)} m`, load.steady_speed_m_s, "m/s"], ["drag coefficient", load.drag_coefficient], ["filling time", stage.filling_time_s, "s"]],
+      methods: stage.methods.map((method) => {
+        const design = method.method === load.design_method;
+        return [design ? `${method.method} (design load)` : method.method, method.load_n, "N", !method.applies && !design];
+      }),
       margins: [["design load", load.design_load_n, "N"], ["trajectory peak", load.peak_load_n, "N"], ...(load.margins?.members ?? []).map((one) => [`margin of safety, ${one.member}`, one.margin_of_safety])],
     };
   }
@@ -272,13 +275,13 @@ class Design {
   async drawLoads() {
     if (!this.data?.check.valid) return;
     const own = (this.loadNumber = (this.loadNumber ?? 0) + 1), against = this.against;
-    const ask = (file) => Server.get("/api/load", { file, mass: this.mass.value.trim(), speed: this.speed.value.trim(), drag: this.drag.value.trim() });
+    const ask = (file) => Server.get("/api/load", { file, mass: this.mass.value.trim(), speed: this.speed.value.trim(), drag: this.drag.value.trim() }, Words.fields(this.asking));
     try {
       const load = await ask(this.file), rows = Design.loadRows(load);
       const other = against?.check.valid ? Design.loadRows(await ask(against.file)) : {};
       if (own !== this.loadNumber) return;
       this.loads.replaceChildren(Design.table(rows.descent, other.descent), element("h2", {}, "Opening load by method"), Design.table(rows.methods, other.methods),
-        element("h2", {}, "Design load and margins"), Design.table(rows.margins, other.margins), Design.remarks("Remarks", load.warnings));
+        element("h2", {}, "Design load and margins"), Design.table(rows.margins, other.margins), Design.remarks("Remarks", load.warnings.map((text) => Words.shown(text, Words.fields(this.asking)))));
       this.loads.dataset.file = this.file;
       this.loads.dataset.against = against?.file ?? "";
     } catch (error) {

@@ -5,7 +5,7 @@ class Fitting {
   constructor(notice) {
     this.notice = notice;
     this.records = [];  // {name, base64, orientation, length, width}
-    const field = (name, text, value = "") => element("label", {}, text, this[name] = element("input", { value, spellcheck: false, "data-control": `fit-${name}` }));
+    const field = (name, text, value = "", more = {}) => element("label", {}, text, this[name] = element("input", { value, spellcheck: false, "data-control": `fit-${name}`, ...more }));
     this.kind = element("select", { "data-control": "fit-kind", onchange: () => this.fields() }, [["fabric", "cloth"], ["line", "line"], ["tape", "tape"]].map(([value, text]) => element("option", { value }, text)));
     this.file = element("input", { type: "file", multiple: true, "data-control": "fit-file", "aria-label": "Tensile records", onchange: () => this.take(this.file.files) });
     this.drop = element("div", { class: "drop", "data-part": "drop" }, element("p", {}, "Drop tensile records here (text tables of a testing machine), or choose them:"), this.file);
@@ -22,7 +22,7 @@ class Fitting {
       element("form", { class: "panel fields", onsubmit: (event) => { event.preventDefault(); this.fit(false); } }, element("h2", {}, "Material from tests"),
         element("label", {}, "Material of", this.kind), field("name", "Name", "my-cloth"), field("source", "Source: who tested, when"),
         this.density = field("areal", "Mass per area [kg/m²]"), this.perLength = field("linear", "Mass per length [kg/m]"), this.thickness = field("thick", "Thickness [m]"), this.tape = field("width", "Width [m]"),
-        this.air = field("cfm", "Air permeability [CFM/ft²]"), field("columns", "Columns, if not recognised"),
+        this.air = field("cfm", "Air permeability [CFM/ft²]"), field("columns", "Columns, if not recognised", "", { "data-option": "--columns" }),
         element("label", {}, "One record a direction is enough (no scatter)", this.single), element("label", {}, "Fit shear and bending with virtual coupons", this.coupons),
         this.problem, element("p", { class: "row" }, element("button", { type: "submit", class: "primary", "data-control": "fit-go" }, "Fit"), this.save)),
       element("div", { class: "column" }, element("div", { class: "panel" }, element("h2", {}, "Records"), this.drop, this.list), this.result)));
@@ -88,7 +88,7 @@ class Fitting {
       this.result.hidden = false;
       this.result.dataset.state = "busy";
       this.result.replaceChildren(element("p", { class: "muted" }, "fitting"));
-      const answer = await Server.post("/api/material", request);
+      const answer = await Server.post("/api/material", request, Words.fields(this.node));
       this.show(answer);
       this.save.disabled = Boolean(answer.saved);
     } catch (error) {

@@ -180,7 +180,7 @@ class Form {
   }
 
   mark(row, message) {
-    row.problem.textContent = message;
+    row.problem.textContent = Words.shown(message);
     row.problem.hidden = !message;
     row.input.setAttribute("aria-invalid", String(Boolean(message)));
   }
@@ -220,7 +220,7 @@ class Form {
       if (row) {
         this.mark(row, problem.message);
         row.node.closest("details").open = true;
-      } else rest.push(problem.text ?? problem.message);
+      } else rest.push(Words.shown(problem.text ?? problem.message));
     }
     for (const section of this.sections.filter((one) => one.names.length)) section.count.textContent = `${section.names.filter((name) => name in written).length} of ${section.names.length} given`;
     return rest;

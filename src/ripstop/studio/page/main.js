@@ -114,8 +114,8 @@ const Studio = (() => {
       try {
         byId("create-problem").textContent = "";
         if (from.value === "size") {
-          const number = (id) => Number(byId(id).value);
-          await Server.post("/api/case/size", { file, family, mass: number("create-mass"), rate: number("create-rate"), speed: number("create-speed"), height: number("create-height") });
+          const text = (id) => byId(id).value.trim();
+          await Server.post("/api/case/size", { file, family, mass: text("create-mass"), rate: text("create-rate"), speed: text("create-speed"), height: text("create-height") }, Words.fields(dialog));
         } else await Server.post("/api/case/create", { file, family });
         dialog.close();
         await look();

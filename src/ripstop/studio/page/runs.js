@@ -52,6 +52,11 @@ class Runs {
     this.propose();
   }
 
+  /** Names of the fields of a run, by their option. */
+  names(command) {
+    return { "--out": "Name", ...Object.fromEntries((this.options[command] ?? []).map(([option, text]) => [option, Words.name(text)])) };
+  }
+
   /** A name that no run has. */
   propose() {
     const stem = (this.design.file ?? "case").replace(/\.toml$/, ""), base = this.command.value === "size" ? "sized" : `${stem}-${this.command.value}`.slice(0, 60);
@@ -68,7 +73,7 @@ class Runs {
       else if (input.value.trim()) options[input.dataset.option] = input.value.trim();
     }
     try {
-      await Server.post("/api/jobs/start", { name: this.name.value.trim(), command: this.command.value, case: this.design.file ?? "", options });
+      await Server.post("/api/jobs/start", { name: this.name.value.trim(), command: this.command.value, case: this.design.file ?? "", options }, this.names(this.command.value));
       this.problem.textContent = "";
       this.select(this.name.value.trim());
       await this.refresh();
@@ -123,7 +128,7 @@ class Runs {
     const compared = job.report && ["steady", "inflate", "sweep", "fly"].includes(job.command);
     return element("div", { class: "job", "data-job": job.name, "data-state": job.state },
       element("div", {}, compared ? [this.mark(job.name), " "] : null, element("strong", {}, job.name), ` · ${job.command}${job.case ? ` of ${job.case}` : ""} · `, element("span", { class: job.state === "failed" ? "bad" : job.state === "finished" ? "good" : "" }, job.state)),
-      element("div", { class: "row" }, buttons), element("div", { class: "line" }, job.message || job.last_line));
+      element("div", { class: "row" }, buttons), element("div", { class: "line" }, Words.shown(job.message || job.last_line, this.names(job.command))));
   }
 
   /** Output, plots of the tables and last shape of a run, while it is on and afterwards. */
@@ -134,7 +139,8 @@ class Runs {
     this.detail.hidden = false;
     this.detail.dataset.run = name;
     this.title.textContent = name;
-    const text = lines.join("\n");
+    const names = this.names(this.jobs.find((job) => job.name === name)?.command);
+    const text = lines.map((line) => (/^(ripstop|warning): /.test(line) ? Words.shown(line, names) : line)).join("\n");
     if (this.log.textContent !== text) {
       this.log.textContent = text;
       this.log.scrollTop = this.log.scrollHeight;

@@ -4,7 +4,8 @@
 const Server = (() => {
   const token = new URLSearchParams(location.search).get("token") ?? "";
 
-  async function answered(path, options) {
+  /** `names` of the fields that the request is made of: Words.fields(). */
+  async function answered(path, options, names) {
     let response;
     try {
       response = await fetch(path, { ...options, headers: { ...options.headers, "X-Ripstop-Token": token } });
@@ -15,13 +16,13 @@ const Server = (() => {
     }
     const json = await response.json();
     if (response.ok) return json;
-    const error = new Error(json.error);
+    const error = new Error(Words.shown(json.error, names));
     error.conflict = response.status === 409;
     throw error;
   }
 
-  const get = (path, parameters = {}) => answered(`${path}?${new URLSearchParams(parameters)}`, { method: "GET" });
-  const post = (path, body) => answered(path, { method: "POST", body: JSON.stringify(body), headers: { "Content-Type": "application/json" } });
+  const get = (path, parameters = {}, names = {}) => answered(`${path}?${new URLSearchParams(parameters)}`, { method: "GET" }, names);
+  const post = (path, body, names = {}) => answered(path, { method: "POST", body: JSON.stringify(body), headers: { "Content-Type": "application/json" } }, names);
 
   return { get, post };
 })();

@@ -1,0 +1,22 @@
+// Messages of the program in the words of this page: an option of the command line becomes the name of its field.
+"use strict";
+
+const Words = (() => {
+  /** A label without its unit and example: "Cells, for example 40,40,60" is "Cells", "Angles FROM:TO:STEP [°]" is "Angles". */
+  const name = (label) => label.split(/[,:[]| [A-Z]{2,}/)[0].trim();
+
+  /** Names of the fields in a node, by their option. */
+  const fields = (node) => Object.fromEntries([...node.querySelectorAll("[data-option]")].map((input) => [input.dataset.option, name(input.closest("label").firstChild.textContent)]));
+
+  function inWords(text, names) {
+    return text.replace(/ with --fresh\b/g, " as a new run with another name")
+      .replace(/(^|[^A-Za-z0-9-])(--[a-z][a-z-]*[a-z])(?: [A-Z][A-Z/]*(?![A-Za-z=]))?/g, (all, before, option) => before + (names[option] ? `"${names[option]}"` : `the option ${option} of the command line`));
+  }
+
+  /** A message in which options are fields, by `names`; command lines in it remain. */
+  function shown(message, names = {}) {
+    return String(message).split(/(\bripstop [a-z][^;,\n]*)/).map((part, i) => (i % 2 ? part : inWords(part, names))).join("");
+  }
+
+  return { name, fields, shown };
+})();
