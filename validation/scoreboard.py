@@ -14,6 +14,7 @@ KINDS = {
     "blind prediction": "The measurement was not known when the prediction was made, and nothing was calibrated on it.",
     "comparison": "The reference was known. Nothing was calibrated on it.",
     "comparison with a range": "The reference is a range of a handbook. The error is relative to its nearest limit, and 0 within the range.",
+    "oscillation": "The mean oscillation angle of a free flight, compared as in the kind above with a range of the handbook.",
     "cross-validation": "The reference is a computation with another code or another equation.",
     "reproduction": "The coefficients were calibrated on this measurement by its authors.",
     "calibration": "The result was calibrated on the reference, so the error is no measure of accuracy.",
@@ -22,7 +23,7 @@ KINDS = {
 ABOUT = """This page lists the comparisons of Ripstop with measurements, handbooks, other codes and published computations. The command
 writes it from the linked tables, and each table states its own command, machine and day. The error is computed / reference - 1, and the
 largest error of a kind comes first. A measured point appears once for each model and speed basis, so the comparisons of a kind are
-not independent. The means combine drag and peak loads. [Validation](../validation.md) explains the runs and their limits, and [the
+not independent. A mean combines all quantities of its kind. [Validation](../validation.md) explains the runs and their limits, and [the
 campaign](ojf.md) has further models. Comparisons with exact solutions are on the pages on [cloth](cloth.md), [flow](flow.md) and
 [openings](inflation.md)."""
 
@@ -105,6 +106,9 @@ def families(board):
         if reference := row["Knacke C_D0"]:
             board.add("comparison with a range", f"$C_D$ in free flight, {row['family']}, {row['cloth CFM']} CFM", reference, row["C_D0 in descent"],
                       beyond(number(row["C_D0 in descent"]), reference), "make validate-flights", "flights")
+        if reference := row["Knacke deg"]:
+            board.add("oscillation", f"{row['family']}, {row['cloth CFM']} CFM, half-swings: {row['half-swings']}", f"{reference} deg",
+                      f"{row['mean oscillation deg']} deg", beyond(number(row["mean oscillation deg"]), reference), "make validate-flights", "flights")
     for row in tables("families-openings")[0]:
         board.add("comparison with a range", f"peak load over $q S_0$, {row['example'].split(',')[0]}", row["Knacke C_x C_D"], row["peak over q S0"],
                   beyond(number(row["peak over q S0"]), row["Knacke C_x C_D"]), "make validate-openings", "families-openings")

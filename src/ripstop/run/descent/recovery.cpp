@@ -39,7 +39,7 @@ struct RecoveryCanopy {
 
 /// Which coefficient of each parachute a flight has.
 enum class DragEnd { nominal, low, high };
-double coefficient(const RecoveryCanopy& canopy, DragEnd end) {
+double drag_at(DragEnd end, const RecoveryCanopy& canopy) {
   return end == DragEnd::low    ? canopy.range.low
          : end == DragEnd::high ? canopy.range.high
                                 : canopy.drag.value;
@@ -114,7 +114,7 @@ class RecoveryFlight {
  private:
   void fly_stage(std::size_t i) {
     const RecoveryCanopy& canopy = canopies_[i];
-    FlownStage stage{state_, opening_load(canopy, coefficient(canopy, end_), state_, mass_, request_)};
+    FlownStage stage{state_, opening_load(canopy, drag_at(end_, canopy), state_, mass_, request_)};
     ++open_;
     const StageLoads& opening = stage.load.stages.front();
     const double others = body_area_ + (request_.drogue_released ? 0 : before_);
@@ -188,7 +188,7 @@ double design_load_at(DragEnd end, const RecoveryCanopy& canopy, std::size_t i,
   for (const Flown& flown : flights)
     peak = high ? std::max(peak, flown.stages[i].peak_force) : std::min(peak, flown.stages[i].peak_force);
   return std::max(peak,
-                  opening_load(canopy, coefficient(canopy, end), stage.opening, mass, request).design_load);
+                  opening_load(canopy, drag_at(end, canopy), stage.opening, mass, request).design_load);
 }
 
 RecoveryStage stage_of(const RecoveryCanopy& canopy, std::size_t i, const std::vector<Flown>& flights,
