@@ -1,6 +1,8 @@
 // Recovery as a rocketry team types it: pounds and feet in, both units out.
 #include <gtest/gtest.h>
 
+#include <regex>
+
 #include "program.h"
 #include "ripstop/core/file.h"
 
@@ -30,6 +32,20 @@ TEST(RecoveryCommand, PrintsBothUnitsAndWritesFilesInSi) {
     EXPECT_TRUE(std::filesystem::exists(folder.path / "out" / file)) << file;
 }
 
+TEST(RecoveryCommand, StatesRangesHardwareAndWind) {
+  const TemporaryFolder folder("recovery");
+  const Finished run =
+      ripstop_with(recovery(folder, {"--mass", "22", "--wind", "5", "--set", "flight.wind.exponent=0.14"}));
+  EXPECT_EQ(run.code, 0) << run.output;
+  for (const char* text : {"\ndrogue: ", "\nmain: ", "range of C_D in descent", "required hardware",
+                           "each swivel, link or cord needs a rated load of ",
+                           "power law with the exponent 0.14: 11.14 m/s at apogee"})
+    EXPECT_NE(run.output.find(text), std::string::npos) << text << "\n" << run.output;
+  const std::string page = read_file(folder.path / "out/report.html");
+  for (const char* text : {"Stages drogue margins", "Stages main margins"})
+    EXPECT_NE(page.find(text), std::string::npos) << text;
+}
+
 TEST(RecoveryCommand, RefusesAUnitOfAnotherQuantityAndAnUnknownChoiceOfUnits) {
   const TemporaryFolder folder("recovery");
   const Finished wrong = ripstop_with(recovery(folder, {"--mass", "48.5 ft"}));
@@ -47,6 +63,29 @@ TEST(RecoveryCommand, RefusesAHeightOfTheMainWithoutADrogue) {
   EXPECT_EQ(run.code, 2);
   EXPECT_NE(run.output.find("--main-height"), std::string::npos) << run.output;
   EXPECT_NE(run.output.find("--drogue"), std::string::npos) << run.output;
+}
+
+// A light payload under a large canopy: the design load is that of infinite mass, although the speed decreases.
+TEST(LoadCommand, MarksTheMethodOfTheDesignLoad) {
+  const TemporaryFolder folder("load");
+  const Finished run = ripstop_with({"load", examples + "flat-circular/case.toml", "--mass", "2.4", "--speed",
+                                     "25", "--out", (folder.path / "out").string()});
+  EXPECT_EQ(run.code, 0) << run.output;
+  EXPECT_TRUE(std::regex_search(run.output, std::regex("\n  infinite mass +[0-9.]+ N +- +design +\\(1\\)")))
+      << run.output;
+  EXPECT_NE(run.output.find("required hardware"), std::string::npos) << run.output;
+}
+
+TEST(PatternCommand, ListsTheCutOfEachPieceAndTheHems) {
+  const TemporaryFolder folder("pattern");
+  const Finished run =
+      ripstop_with({"pattern", examples + "annular/case.toml", "--out", (folder.path / "out").string()});
+  EXPECT_EQ(run.code, 0) << run.output;
+  // 0.95 m to the confluence and 0.1 m at each end.
+  EXPECT_TRUE(std::regex_search(run.output, std::regex("apex line +[a-z0-9-]+ +12 +1\\.150 m"))) << run.output;
+  for (const char* text : {"cut each", "hem, skirt: ", "hem, vent: "})
+    EXPECT_NE(run.output.find(text), std::string::npos) << text << "\n" << run.output;
+  EXPECT_EQ(read_file(folder.path / "out/bill.csv").find("part,material,count,cut_each,"), 0u);
 }
 
 TEST(LoadCommand, NeedsASpeedOrFindsTheFastestOne) {
