@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ripstop/core/error.h"
+#include "ripstop/core/words.h"
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/validity.h"
 #include "ripstop/run/opening/handbook.h"
@@ -50,6 +51,20 @@ TEST(DesignLoad, OfASmallSlowCanopyIsThatOfInfiniteMass) {
       << stage.caution;
   EXPECT_NE(stage.caution.find("approaches the infinite-mass load"), std::string::npos);
   EXPECT_LT(stage.highest, 0.25 * r.design_load);
+}
+
+// C_x is the handbook's, for drag coefficients of 0.75 to 0.80.
+TEST(DesignLoad, WithASmallDragCoefficientStatesTheLoadWithTheHandbooks) {
+  LoadRequest asked = drop();
+  asked.drag_coefficient = 0.64;
+  const LoadResult small = run_load(resolve(sized_canopy(1.76)), asked);
+  EXPECT_NE(small.design_load_from.find(rounded(small.design_load * 0.8 / 0.64) + " N with the C_D of 0.80"),
+            std::string::npos)
+      << small.design_load_from;
+  asked.drag_coefficient = 0.76;
+  EXPECT_EQ(run_load(resolve(sized_canopy(1.76)), asked).design_load_from, "infinite mass, C_x C_D S0 q");
+  asked.drag_coefficient = 0.64, asked.opening_coefficient = 1.7;  // of the user, for this coefficient
+  EXPECT_EQ(run_load(resolve(sized_canopy(1.76)), asked).design_load_from, "infinite mass, C_x C_D S0 q");
 }
 
 TEST(DesignLoad, WithinTheirRangeTheMethodsApplyAndTheDesignLoadStays) {

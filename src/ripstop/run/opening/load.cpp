@@ -269,6 +269,15 @@ void fly_record(const Settings& resolved, const LoadRequest& request, LoadResult
   compare_methods(stage);
 }
 
+/// The C_x of the handbook belongs to its drag coefficients in descent: the load with the largest of them, where the
+/// coefficient of the parachute is below all of them; else empty.
+std::string with_handbook_drag(const Settings& resolved, const LoadRequest& request, const LoadResult& r) {
+  const KnownRange known = experience(resolved.parachute()).drag_coefficient;
+  if (request.opening_coefficient || !(r.drag_coefficient < known.low)) return "";
+  return fmt::format("; {} N with the C_D of {:.2f} in descent to which the C_x of the handbook belongs",
+                     rounded(r.design_load * known.high / r.drag_coefficient), known.high);
+}
+
 /// The infinite-mass load of the stage with the highest, or that of a method that applies and has more (a payload that is
 /// accelerated on its path), unless a measurement or a computed opening replaces it.
 void choose_design_load(const Settings& resolved, const LoadRequest& request, LoadResult& r) {
@@ -280,6 +289,7 @@ void choose_design_load(const Settings& resolved, const LoadRequest& request, Lo
       if (m.applies && m.load > r.design_load)
         r.design_load = m.load, r.design_method = m.method,
         r.design_load_from = m.method + ", more than infinite mass";
+  if (r.design_method == infinite_mass_method) r.design_load_from += with_handbook_drag(resolved, request, r);
   if (request.measured_load) {
     r.design_load = *request.measured_load, r.design_load_from = "measured, as given";
     r.design_method.clear();
