@@ -333,6 +333,11 @@ class StudioPage(unittest.TestCase):
         self.click("[data-view=materials]")
         self.drop(sorted((ROOT / "examples/fit-ripstop/records").glob("warp-[12].csv")))
         self.until("document.querySelectorAll('[data-record]').length === 2")
+        self.type_into("[data-control=fit-areal]", "-1")
+        self.click("[data-control=fit-go]")
+        problem = self.until("document.querySelector('[data-part=fit-problem]').textContent")
+        self.assertIn('"Mass per area" = -1', problem)
+        self.assertNotIn("bench", problem)
         for name, text in (("areal", "0.0407"), ("thick", "7.6e-5"), ("source", "A & B <lab@example.org>"), ("cfm", "3")):
             self.type_into(f"[data-control=fit-{name}]", text)
         self.click("[data-control=fit-go]")

@@ -64,6 +64,18 @@ class Fitting {
         element("td", {}, element("button", { type: "button", "aria-label": `Remove ${record.name}`, onclick: () => { this.records = this.records.filter((one) => one !== record); this.listRecords(); } }, "✕")))))));
   }
 
+  /** Names of the fields by option, and by key of the campaign that the server writes. */
+  names() {
+    const of = (label) => Words.name(label.firstChild.textContent);
+    return { ...Words.fields(this.node), areal_density_kg_m2: of(this.density), linear_density_kg_m: of(this.perLength), thickness_m: of(this.thickness), width_m: "Width",
+      cfm: of(this.air), orientation_deg: "orientation", length_m: "length" };
+  }
+
+  /** A message about the campaign: records have their names, and the page has no file of the campaign. */
+  inWords(message) {
+    return message.replace(/\S*bench\.toml(:\d+)*:? ?/g, "").replace(/coupon\[(\d+)\]\.?/g, (all, i) => `${this.records[i]?.name}: `);
+  }
+
   request(save) {
     const number = (text, name) => {
       if (!Numbers.isNumber(text)) throw new Error(`${name}: "${text}" is not a number`);
@@ -88,12 +100,12 @@ class Fitting {
       this.result.hidden = false;
       this.result.dataset.state = "busy";
       this.result.replaceChildren(element("p", { class: "muted" }, "fitting"));
-      const answer = await Server.post("/api/material", request, Words.fields(this.node));
+      const answer = await Server.post("/api/material", request, this.names());
       this.show(answer);
       this.save.disabled = Boolean(answer.saved);
     } catch (error) {
       this.result.hidden = true;
-      this.problem.textContent = error.message;
+      this.problem.textContent = this.inWords(error.message);
     }
   }
 
