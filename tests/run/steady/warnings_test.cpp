@@ -64,7 +64,7 @@ TEST(Warnings, AGridIsWarnedOfWhereTheAirsOwnLoadFindsFewerThanTenCellsAcrossThe
 }
 
 // Ten cells across are enough, whatever the rounding of box and cells; slightly fewer are not printed as ten.
-TEST(Warnings, NoGridIsSaidToHaveTenCellsAndFewerThanTen) {
+TEST(Warnings, TenCellsAcrossAreEnoughAndFewerAreNotPrintedAsTen) {
   Case given = warned_case();
   given.coupling.load = CanopyLoad::of_flow;
   given.flow.core.size_m = Vec3{0, 0, 0};
