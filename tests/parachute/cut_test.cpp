@@ -110,8 +110,11 @@ TEST(CutPattern, HemsAreSkirtAndVentAroundAllGores) {
   EXPECT_EQ(hems[1].name, "vent");
   EXPECT_NEAR(hems[1].length, gore.count * 2 * gore.outline[2].x, 1e-12);
   for (const CutLength& tape : pattern.tapes)  // along both hems, where there is tape
-    for (const CutLength& hem : hems)
-      if (tape.name == hem.name) EXPECT_NEAR(tape.length, hem.length, 1e-12);
+    for (const CutLength& hem : hems) {
+      if (tape.name == hem.name) {
+        EXPECT_NEAR(tape.length, hem.length, 1e-12);
+      }
+    }
 }
 
 TEST(CutPattern, TheCutLengthOfOnePieceHasItsOwnAllowance) {

@@ -213,7 +213,7 @@ class StudioPage(unittest.TestCase):
         self.picture("new-case-problem")
         self.type_into("#create-mass", "5 lb")
         self.click("#create-go")
-        self.until("document.querySelector('[data-part=loads]').dataset.file === 'my-canopy.toml' && document.querySelector('[data-part=loads] table')")
+        self.until("document.querySelector('[data-part=loads]').dataset.file === 'my-canopy.toml' && document.querySelector('[data-part=loads] table') !== null")
         self.assertIn("mass_kg = 2.26796", (self.folder / "my-canopy.toml").read_text())
         self.type_into("[data-control=speed]", "fast")
         self.assertIn('"Deployment speed" = fast', self.until("document.querySelector('[data-part=loads] .problem')?.textContent ?? ''"))

@@ -298,7 +298,7 @@ class Design {
       if (own !== this.patternNumber) return;
       this.packed = 1000 * pattern.result.packed_volume_m3;
       if (this.data.check.valid) this.showFacts();
-      this.bill.replaceChildren(Tables.plain({ id: "bill", title: "Bill of materials", note: "Cloth in m², tape and lines in m.",
+      this.bill.replaceChildren(Tables.plain({ id: "bill", title: "Bill of materials", note: "Cloth in m², tape and lines in m; cut with its allowances.",
         columns: ["part", "material", "count", "cut each", "finished", "cut", "mass [g]"].map((text) => ({ text, unit: "" })),
         rows: pattern.result.bill.map((row) => [row.part, row.material, String(row.count), row.cut_each.toPrecision(4), row.finished.toPrecision(4), row.cut.toPrecision(4), (1000 * row.mass_kg).toPrecision(4)]) }));
       this.pieces.replaceChildren(...pattern.pieces.map((piece) => element("figure", { class: "panel", "data-piece": piece.name }, element("figcaption", {}, piece.name),
