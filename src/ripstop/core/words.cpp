@@ -140,6 +140,7 @@ const std::map<std::string_view, Wording>& known() {  // NOLINT(readability-func
       {"knacke_drag_n", {"C_D S₀ q at the speed of deployment", "N"}},
       {"knacke_drag_from", {"source of that drag", ""}},
       {"weakest_member", {"weakest member", ""}},
+      {"applies", {"whether the method estimates this load", ""}},
       {"margin_of_safety", {"margin of safety", ""}},
       {"smallest_margin_of_safety", {"smallest margin of safety", ""}},
       {"ledger_gap", {"largest difference of air load, cloth load and line load", ""}},
