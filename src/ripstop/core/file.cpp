@@ -6,7 +6,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cctype>
 #include <cerrno>
 #include <cstdlib>
 #include <system_error>
@@ -17,11 +19,36 @@
 namespace ripstop {
 namespace {
 
+/// The name within WSL of a path of Windows, which the text may have after a folder; empty: it has none.
+std::string in_wsl(const std::string& path) {
+  for (std::size_t i = 0; i + 2 < path.size(); ++i) {
+    const auto letter = static_cast<unsigned char>(path[i]);
+    const bool begins = i == 0 || path[i - 1] == '/';
+    if (!begins || std::isalpha(letter) == 0 || path[i + 1] != ':' ||
+        (path[i + 2] != '\\' && path[i + 2] != '/'))
+      continue;
+    std::string name = fmt::format("/mnt/{}{}", static_cast<char>(std::tolower(letter)), path.substr(i + 2));
+    std::replace(name.begin(), name.end(), '\\', '/');
+    return name;
+  }
+  return {};
+}
+
+/// Linux would make a file or folder with this name in the current folder.
+void refuse_path_of_windows(const std::filesystem::path& path) {
+  const std::string name = in_wsl(path.string());
+  if (!name.empty() && !path.is_absolute())
+    throw Error(ExitCode::usage,
+                fmt::format("{}: is a path of Windows; within WSL it is {}", path.string(), name));
+}
+
 [[noreturn]] void fail(const char* task, const std::filesystem::path& path, int reason) {
-  const char* advice = "";
+  std::string advice;
   if (reason == ENOSPC || reason == EDQUOT) advice = "; free some space, or use another folder";
   if (reason == EACCES || reason == EPERM || reason == EROFS)
     advice = "; choose a folder with write permission";
+  if (const std::string name = in_wsl(path.string()); reason == ENOENT && !name.empty())
+    advice = fmt::format("; it is a path of Windows, and within WSL it is {}", name);
   throw Error(ExitCode::io, fmt::format("cannot {} {}: {}{}", task, path.string(),
                                         std::generic_category().message(reason), advice));
 }
@@ -111,6 +138,7 @@ std::string written_as(const std::string& file) {
 }
 
 void write_file(const std::filesystem::path& path, std::string_view bytes) {
+  refuse_path_of_windows(path);
   drop_leftovers(path);
   std::filesystem::path temporary;
   const int opened = open_temporary(path, temporary);
@@ -153,6 +181,7 @@ std::string read_file(const std::filesystem::path& path) {
 }
 
 void make_folder(const std::filesystem::path& folder) {
+  refuse_path_of_windows(folder);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) fail("create folder", folder, error.value());
