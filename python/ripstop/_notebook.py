@@ -61,7 +61,8 @@ def _values(result, above=""):
         value, (meaning, unit) = getattr(result, name), _words(type(result), name)
         if _is_result(value):
             inner = _values(value, f"{above}{meaning}: ")
-            rows, lists = rows + inner[0], lists + inner[1]
+            rows += [[words, text, of or unit] for words, text, of in inner[0]]
+            lists += inner[1]
         elif isinstance(value, list) and value and _is_result(value[0]):
             lists.append((above + meaning, value))
         else:

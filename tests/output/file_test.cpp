@@ -15,6 +15,7 @@
 #include "../refusal.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/hash.h"
+#include "ripstop/core/toml/document.h"
 
 namespace ripstop {
 namespace {
@@ -51,6 +52,8 @@ TEST(File, APathOfWindowsIsRefusedWithItsNameInWsl) {
                 std::string(path) + ": is a path of Windows; within WSL it is " + name);
     const std::string advice = refusal_of([&, path = path] { read_file(path); }, ExitCode::io);
     EXPECT_NE(advice.find(std::string("within WSL it is ") + name), std::string::npos) << advice;
+    const std::string case_file = refusal_of([&, path = path] { read_text_file(path); }, ExitCode::io);
+    EXPECT_NE(case_file.find(std::string("within WSL it is ") + name), std::string::npos) << case_file;
     const std::string of_a_case =  // a file named by a case, next to which it is looked for
         refusal_of([&, path = path] { read_file(folder.path / path); }, ExitCode::io);
     EXPECT_NE(of_a_case.find(std::string("within WSL it is ") + name), std::string::npos) << of_a_case;

@@ -219,7 +219,7 @@ TEST(EarlierVersion, ARunOfAnotherVersionIsReadButNotContinued) {
                          " does not continue"),
             std::string::npos)
       << message;
-  EXPECT_EQ(finished_steady(folder).result.drag, 396.8);
+  EXPECT_NE(finished_result(folder).value().find("396.8"), std::string::npos);
   EXPECT_TRUE(open_run_folder({folder, true}, resolved, "engine", 1) != nullptr);  // --fresh replaces it
 }
 

@@ -6,37 +6,21 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <atomic>
-#include <cctype>
 #include <cerrno>
 #include <cstdlib>
 #include <system_error>
 #include <utility>
 
 #include "ripstop/core/error.h"
+#include "ripstop/core/wsl_path.h"
 
 namespace ripstop {
 namespace {
 
-/// The name within WSL of a path of Windows, which the text may have after a folder; empty: it has none.
-std::string in_wsl(const std::string& path) {
-  for (std::size_t i = 0; i + 2 < path.size(); ++i) {
-    const auto letter = static_cast<unsigned char>(path[i]);
-    const bool begins = i == 0 || path[i - 1] == '/';
-    if (!begins || std::isalpha(letter) == 0 || path[i + 1] != ':' ||
-        (path[i + 2] != '\\' && path[i + 2] != '/'))
-      continue;
-    std::string name = fmt::format("/mnt/{}{}", static_cast<char>(std::tolower(letter)), path.substr(i + 2));
-    std::replace(name.begin(), name.end(), '\\', '/');
-    return name;
-  }
-  return {};
-}
-
 /// Linux would make a file or folder with this name in the current folder.
 void refuse_path_of_windows(const std::filesystem::path& path) {
-  const std::string name = in_wsl(path.string());
+  const std::string name = path_in_wsl(path);
   if (!name.empty() && !path.is_absolute())
     throw Error(ExitCode::usage,
                 fmt::format("{}: is a path of Windows; within WSL it is {}", path.string(), name));
@@ -47,7 +31,7 @@ void refuse_path_of_windows(const std::filesystem::path& path) {
   if (reason == ENOSPC || reason == EDQUOT) advice = "; free some space, or use another folder";
   if (reason == EACCES || reason == EPERM || reason == EROFS)
     advice = "; choose a folder with write permission";
-  if (const std::string name = in_wsl(path.string()); reason == ENOENT && !name.empty())
+  if (const std::string name = path_in_wsl(path); reason == ENOENT && !name.empty())
     advice = fmt::format("; it is a path of Windows, and within WSL it is {}", name);
   throw Error(ExitCode::io, fmt::format("cannot {} {}: {}{}", task, path.string(),
                                         std::generic_category().message(reason), advice));
