@@ -17,24 +17,23 @@ PORTABLE_PACKAGES := patchelf
 PYTHON_PACKAGES := python3-dev pybind11-dev python3-numpy
 WHEEL_PACKAGES := python3-pip python3-setuptools python3-wheel $(PORTABLE_PACKAGES)
 CHECK_PACKAGES := libgtest-dev libbenchmark-dev python3 python3-jsonschema python3-vtk9 python3-venv clang-format chromium \
-  zsh fish   $(PYTHON_PACKAGES) $(WHEEL_PACKAGES)
+  zsh fish python3-nbconvert python3-ipykernel $(PYTHON_PACKAGES) $(WHEEL_PACKAGES)
 
 # Programs of other people that open the cutting patterns.
 DRAWING_PACKAGES := librecad inkscape python3-lxml python3-cssselect python3-numpy
 DOCS_PACKAGES := mkdocs-material libjs-katex fonts-katex doxygen
 
-# The same where there is no apt, from packages.fedoraproject.org and archlinux.org/packages; not tested. Neither has OpenFOAM.
+# The same where there is no apt, by the names in public package files (RPM specs, PKGBUILDs); not tested. Neither has OpenFOAM.
 FEDORA := gcc-c++ make cmake ninja-build pkgconf-pkg-config tomlplusplus-devel cli11-devel fmt-devel eigen3-devel json-devel \
   NLopt-devel highway-devel libpng-devel cairo-devel dejavu-sans-fonts xxhash-devel zlib-devel \
   pugixml-devel minizip-ng-compat-devel cpp-httplib-devel
 FEDORA_CHECK := gtest-devel google-benchmark-devel python3-devel pybind11-devel python3-numpy python3-jsonschema
-ARCH := base-devel cmake ninja tomlplusplus cli11 fmt eigen nlohmann-json nlopt highway libpng cairo ttf-dejavu xxhash zlib pugixml minizip \
-  cpp-httplib
+ARCH := base-devel cmake ninja tomlplusplus cli11 fmt eigen nlohmann-json nlopt highway libpng cairo ttf-dejavu xxhash zlib pugixml minizip
 ARCH_CHECK := gtest benchmark python pybind11 python-numpy python-jsonschema
 
 export PATH := /usr/bin:$(PATH)
 
-.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-openings validate-filling validate-flights validate-stability judge torture test-sizes test-studio test-tutorials test-drawings test-slurm test-hosts test-debian12 test-debian13 scaling docs reference report-libraries format format-check install-build install wheel tarball test-portable container package clean
+.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-openings validate-filling validate-flights validate-stability judge torture test-sizes test-studio test-tutorials test-drawings test-slurm test-hosts test-debian12 test-debian13 scaling docs reference report-libraries format format-check install-build install wheel tarball test-portable container package release clean
 
 help:  ## This list
 	@grep -hE '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -42,7 +41,7 @@ help:  ## This list
 define other_systems
 echo "Packages are installed automatically with apt only (Debian 12 and 13). Elsewhere install them first; CMake names what is missing."; \
   echo "  Fedora:     sudo dnf install $(FEDORA)"; \
-  echo "  Arch Linux: sudo pacman -S --needed $(ARCH)"; \
+  echo "  Arch Linux: sudo pacman -S --needed $(ARCH), and cpp-httplib from the AUR"; \
   echo "For the tests also:"; \
   echo "  Fedora:     sudo dnf install $(FEDORA_CHECK)"; \
   echo "  Arch Linux: sudo pacman -S --needed $(ARCH_CHECK)"; \
@@ -261,9 +260,10 @@ tarball: install-build docs  ## A portable archive in build/portable/: program, 
 	$(call install_missing,$(PORTABLE_PACKAGES))
 	@/usr/bin/python3 -B packaging/tarball.py --build build --site build-docs/site --out build/portable
 
-test-portable: tarball wheel  ## Archive and wheel in empty roots of Debian 12 and 13 (as root, by debootstrap), into docs/tables; PORTABLE=--coarse
-	$(call install_missing,debootstrap iproute2)
-	@/usr/bin/python3 validation/systems/portable.py --ripstop build/bin/ripstop $(PORTABLE) build/portable/*.tar.gz build/wheel/*.whl
+test-portable: tarball wheel package  ## Archive, wheel, packages and container in empty roots of Debian 12 and 13 (as root, by debootstrap), into docs/tables; PORTABLE=--coarse
+	$(call install_missing,debootstrap iproute2 buildah)
+	@/usr/bin/python3 validation/systems/portable.py --ripstop build/bin/ripstop --image $(PORTABLE) \
+	  build/portable/*.tar.gz build/wheel/*.whl build/*.deb
 
 IMAGE ?=
 container: tarball  ## The image localhost/ripstop of the archive (buildah); IMAGE=FILE writes it; CONTAINER='--build-arg BASE=...'
@@ -271,8 +271,13 @@ container: tarball  ## The image localhost/ripstop of the archive (buildah); IMA
 	@buildah build $(CONTAINER) -f packaging/Containerfile -t localhost/ripstop build/portable
 	@test -z "$(IMAGE)" || buildah push localhost/ripstop oci-archive:$(IMAGE)
 
-package: install-build  ## Debian packages in build/
-	@cd build && cpack -G DEB
+package: docs install-build  ## Debian packages in build/, examined by lintian
+	$(call install_missing,lintian)
+	@rm -f build/*.deb && cd build && cpack -G DEB
+	@lintian --tag-display-limit 0 --fail-on error,warning build/*.deb
+
+release: wheel tarball package  ## All artefacts with SHA256SUMS in build/release; a tree that is no release: RELEASE=--draft
+	@/usr/bin/python3 -B packaging/release.py --build build --out build/release $(RELEASE)
 
 clean:  ## Remove the build folders
 	rm -rf build build-* build.configure.log

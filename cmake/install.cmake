@@ -6,6 +6,10 @@ install(TARGETS ripstop_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMP
 install(DIRECTORY materials examples DESTINATION ${CMAKE_INSTALL_DATADIR}/ripstop COMPONENT program)
 install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 
+# The site of the documentation, where `make docs` has built it.
+set(RIPSTOP_SITE ${CMAKE_SOURCE_DIR}/build-docs/site)
+install(DIRECTORY ${RIPSTOP_SITE}/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/ripstop/html COMPONENT documentation OPTIONAL)
+
 # Manual pages and shell completion, which the program's own --help gives.
 if(RIPSTOP_PYTHON)
   set(RIPSTOP_TERMINAL ${CMAKE_BINARY_DIR}/terminal)

@@ -2,6 +2,7 @@
 set(CPACK_GENERATOR DEB)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_ALL program development)
+set(CPACK_DEBIAN_PACKAGE_HOMEPAGE ${PROJECT_HOMEPAGE_URL})
 set(CPACK_PACKAGE_CONTACT "The Ripstop developers <ripstop@example.org>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
@@ -23,6 +24,16 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libripstop-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
   "ripstop, pkg-config, libfmt-dev, libtomlplusplus-dev, libpng-dev, zlib1g-dev, libhwy-dev, libcairo2-dev, libxxhash-dev, libnlopt-dev, libpugixml-dev, libminizip-dev")
+if(EXISTS ${RIPSTOP_SITE}/index.html)
+  list(APPEND CPACK_COMPONENTS_ALL documentation)
+endif()
+set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_NAME ripstop-doc)
+set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_SECTION doc)
+set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_SHLIBDEPS OFF)
+set(CPACK_COMPONENT_DOCUMENTATION_DESCRIPTION "subsonic parachutes: documentation
+ Tutorials, guide, theory, validation and reference of Ripstop as pages for the
+ browser, with search and without a network: /usr/share/doc/ripstop/html.")
 if(RIPSTOP_PYTHON)
   list(APPEND CPACK_COMPONENTS_ALL python)
   math(EXPR python_next "${Python3_VERSION_MINOR} + 1")
@@ -34,7 +45,7 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 
 # What Debian expects of every package: its copyright, and a change log that states the version. Packages have the prefix /usr.
 string(TIMESTAMP today "%a, %d %b %Y 00:00:00 +0000" UTC)
-foreach(names program ripstop development libripstop-dev python python3-ripstop)
+foreach(names program ripstop development libripstop-dev documentation ripstop-doc python python3-ripstop)
   if(NOT component)
     set(component ${names})
     continue()

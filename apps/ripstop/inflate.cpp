@@ -208,10 +208,9 @@ class Terminal : public InflationObserver {
                 const InflationFrame*) override {
     const double spent = std::chrono::duration<double>(Clock::now() - begin_).count();
     const double remaining = spent * double(solver.blocks() - state.blocks) / double(state.blocks - first_);
-    progress_.show(
-        fmt::format("{:.2f} of {:.0f} ms, load {:.1f} N, step {:.2e} s | elapsed {}, remaining about {}",
-                    1000 * state.cloth.time, 1000 * solver.problem().settings.duration_s,
-                    history.rows.back().mean, state.step, duration_text(spent), duration_text(remaining)));
+    progress_.show(fmt::format("{:.1f} of {:.0f} ms, load {:.1f} N | elapsed {}, remaining about {}",
+                               1000 * state.cloth.time, 1000 * solver.problem().settings.duration_s,
+                               history.rows.back().mean, duration_text(spent), duration_text(remaining)));
   }
 
  private:

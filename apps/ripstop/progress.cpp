@@ -1,12 +1,31 @@
 #include "progress.h"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cmath>
+#include <string_view>
 #include <utility>
 
+#include "ripstop/core/utf8.h"
+
 namespace ripstop::cli {
+namespace {
+
+/// As much of a line as the terminal shows without a second line, which the next text could not replace.
+std::string fitting(const std::string& text) {
+  constexpr std::size_t usual = 80;
+  winsize size{};
+  const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  const std::size_t columns = (known ? size.ws_col : usual) - 1;  // the cursor needs the last one
+  std::size_t end = 0;
+  for (std::size_t shown = 0; end < text.size() && shown < columns; ++shown)
+    end += first_character(std::string_view(text).substr(end)).length;
+  return text.substr(0, end);
+}
+
+}  // namespace
 
 Progress::Progress() : terminal_(isatty(STDERR_FILENO) != 0), last_(std::chrono::steady_clock::now()) {}
 
@@ -19,7 +38,7 @@ void Progress::show(const std::string& text) {
   if (std::chrono::duration<double>(now - last_).count() < (terminal_ ? 0.2 : 10.0)) return;
   last_ = now;
   if (terminal_) {
-    fmt::print(stderr, "\r\x1b[K{}", text);
+    fmt::print(stderr, "\r\x1b[K{}", fitting(text));
     open_ = true;
   } else {
     fmt::print(stderr, "{}\n", text);

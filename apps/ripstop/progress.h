@@ -11,7 +11,8 @@ class Progress {
  public:
   Progress();
   ~Progress();
-  /// Shows `text` unless the last one is too recent (0.2 s on a terminal, 10 s elsewhere).
+  /// Shows `text` unless the last one is too recent (0.2 s on a terminal, 10 s elsewhere). A terminal shows one line
+  /// of it.
   void show(const std::string& text);
   /// A line that stays.
   void line(const std::string& text);

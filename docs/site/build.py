@@ -83,9 +83,12 @@ def add_assets(pages):
         shutil.copy(HERE / name, folder / name)
 
 
+def version():
+    return re.search(r"project\(\w+[^)]*VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text())[1]
+
+
 def run_doxygen(pages):
-    version = re.search(r"project\(\w+[^)]*VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text())[1]
-    settings = (HERE / "Doxyfile").read_text() + f"OUTPUT_DIRECTORY = {pages}/docs/reference\nHTML_OUTPUT = cpp\nPROJECT_NUMBER = {version}\n"
+    settings = (HERE / "Doxyfile").read_text() + f"OUTPUT_DIRECTORY = {pages}/docs/reference\nHTML_OUTPUT = cpp\nPROJECT_NUMBER = {version()}\n"
     with open(OUT / "doxygen.log", "w") as log:
         subprocess.run(["doxygen", "-"], cwd=ROOT, input=settings, text=True, check=True, stdout=log, stderr=subprocess.STDOUT)
 
@@ -95,7 +98,7 @@ def run_mkdocs():
     settings = (HERE / "mkdocs.yml").read_text()
     tutorials = sorted((ROOT / "docs/tutorials").glob("*.md"))
     listed = ", ".join(str(page.relative_to(ROOT)) for page in tutorials)
-    (OUT / "mkdocs.yml").write_text(settings.replace("TUTORIALS", f"[{listed}]"))
+    (OUT / "mkdocs.yml").write_text(settings.replace("TUTORIALS", f"[{listed}]").replace("VERSION", version()))
     environment = {**os.environ, "PYTHONPATH": str(HERE), "PYTHONDONTWRITEBYTECODE": "1"}
     subprocess.run(["mkdocs", "build", "--quiet", "--config-file", OUT / "mkdocs.yml"], check=True, env=environment)
     index = json.loads((OUT / "site/search/search_index.json").read_text())

@@ -68,10 +68,12 @@ py::dtype row_type() {
   return py::dtype(names, formats, offsets, sizeof(Row));
 }
 
-/// Rows as a structured array: table["drag_n"] is a column.
+/// Rows as a structured array: table["drag_n"] is a column. A notebook shows it as a table.
 template <Listed Row>
 py::array table_of(const std::vector<Row>& rows, py::handle owner) {
-  return view_of(rows.data(), {static_cast<py::ssize_t>(rows.size())}, row_type<Row>(), owner);
+  const py::array array =
+      view_of(rows.data(), {static_cast<py::ssize_t>(rows.size())}, row_type<Row>(), owner);
+  return array.attr("view")(py::module_::import("ripstop._notebook").attr("Table"));
 }
 
 }  // namespace ripstop::python

@@ -6,6 +6,7 @@
 
 #include "members.h"
 #include "module.h"
+#include "notebook.h"
 #include "ripstop/core/claimed_folder.h"
 #include "runs.h"
 
@@ -13,8 +14,10 @@ namespace ripstop::python {
 namespace {
 
 struct PyFabric {
+  PyCase made;
   FabricSolution solution;
   std::vector<Cell> cells;
+  Path folder;  // without a report
 };
 
 std::unique_ptr<PyFabric> fabric(const PyCase& given, std::optional<double> pressure,
@@ -23,6 +26,7 @@ std::unique_ptr<PyFabric> fabric(const PyCase& given, std::optional<double> pres
   const py::gil_scoped_release release;
   if (out) make_results_folder(*out);
   auto made = std::make_unique<PyFabric>();
+  made->made = given;
   made->solution = run_fabric(given.settings(), pressure, [&](const RelaxProgress&) { listener.listen(); });
   made->cells = cells_of(made->solution.mesh);
   if (out) write_fabric(*out, made->solution);
@@ -41,6 +45,12 @@ void add_fabric(py::module_& module) {
   const auto result = [](const PyFabric& f) -> const FabricResult& { return f.solution.result; };
   add_members(type, result);
   add_json(type, result);
+  add_page(type, [](const PyFabric& f) {
+    ReportRun shown = memory_report("fabric", to_json(f.solution.result), f.made.settings());
+    shown.shape = shape_of(fabric_canopy(f.solution), fabric_lines(f.solution));
+    shown.shape.part_names = f.solution.mesh.parts;
+    return shown;
+  });
   type.def_property_readonly(
       "shape", [](const py::object& self) { return view_of(fabric_of(self).solution.shape, self); },
       "Position of every node of the parachute: x, y, z; z is downstream [m]");

@@ -5,8 +5,10 @@
 #include "arrays.h"
 #include "members.h"
 #include "module.h"
+#include "notebook.h"
 #include "ripstop/run/flight/flight_folder.h"
 #include "ripstop/run/json.h"
+#include "ripstop/run/report/report_flight.h"
 #include "runs.h"
 
 namespace ripstop {
@@ -32,8 +34,11 @@ struct PyFlight {
   PyCase made;
   FlightResult result;
   std::vector<FreeFlightRow> path;
-  std::vector<Vec3> shape;  // at the end
+  std::vector<Vec3> shape;         // at the end
+  std::vector<CellStress> stress;  // likewise
+  CanopyMesh mesh;
   std::vector<Cell> cells;
+  Path folder;  // empty: in memory only
 };
 
 class FlightListener : public FlightObserver {
@@ -42,7 +47,8 @@ class FlightListener : public FlightObserver {
   void starting(const SteadyProgress&, const SteadyState&) override { listener_.listen(); }
   InflationObserver& opening() override { return opening_; }
   void begin(FreeFlight& flight, FreeFlightState&, FlightHistory&) override {
-    run_.cells = cells_of(flight.mesh());
+    run_.mesh = flight.mesh();
+    run_.cells = cells_of(run_.mesh);
   }
   void advanced(FreeFlight& flight, const FreeFlightState&, const FlightHistory& history, bool) override {
     const FreeFlightRow& row = history.rows.back();
@@ -53,6 +59,7 @@ class FlightListener : public FlightObserver {
              const FlightResult& result) override {
     run_.result = result, run_.path = history.rows;
     run_.shape = positions(state.coupled.cloth, flight.cloth());
+    run_.stress = cell_stress(flight.cloth(), state.coupled.cloth);
   }
 
  private:
@@ -75,6 +82,7 @@ std::unique_ptr<PyFlight> fly(const PyCase& given, Callback<FlightProgress> prog
                               bool deploy) {
   auto run = std::make_unique<PyFlight>();
   run->made = given;
+  if (out) run->folder = *out;
   if (deploy) run->made.given.flight.start = FlightSettings::Start::inflation;
   const std::filesystem::path opening = from.value_or(std::filesystem::path());
   Listener listener(std::move(progress));
@@ -113,6 +121,12 @@ void add_fly(py::module_& module) {
   type.def_property_readonly(
       "cells", [](const py::object& self) { return view_of_cells(run_of_flight(self).cells, self); },
       "Nodes at the four corners of every cloth cell; the first is -1 for a missing cell.");
+  add_page(type, [](const PyFlight& run) {
+    ReportRun shown = memory_report("flight", to_json(run.result), run.made.settings());
+    shown.plots = flight_plots(run.path);
+    shown.shape = memory_shape(run.mesh, run.shape, run.stress);
+    return shown;
+  });
   type.def_property_readonly(
       "case", [](const PyFlight& run) { return run.made; }, "The Case that flew.");
   module.def(

@@ -5,6 +5,7 @@
 
 #include "members.h"
 #include "module.h"
+#include "notebook.h"
 #include "opening.h"
 #include "ripstop/case/deployment.h"
 #include "ripstop/case/opening.h"
@@ -37,7 +38,8 @@ class OpeningListener : public InflationObserver {
  public:
   OpeningListener(Listener& listener, PyInflation& run) : listener_(listener), run_(run) {}
   void begin(const ripstop::Opening& solver, InflationState&, InflationHistory&) override {
-    run_.cells = cells_of(solver.mesh());
+    run_.mesh = solver.mesh();
+    run_.cells = cells_of(run_.mesh);
   }
   void advanced(const ripstop::Opening& solver, const InflationState& state, const InflationHistory& history,
                 const InflationFrame*) override {
@@ -61,6 +63,7 @@ std::unique_ptr<PyInflation> inflate(const PyCase& given, const OptionalSource& 
                                      int threads, const std::optional<Path>& out, bool fresh) {
   auto run = std::make_unique<PyInflation>();
   run->made = given;
+  if (out) run->folder = *out;
   Listener listener(std::move(progress));
   OpeningListener observer(listener, *run);
   const py::gil_scoped_release release;
@@ -150,6 +153,12 @@ void add_inflate(py::module_& module) {
   add_members(type, result);
   add_json(type, result);
   add_arrays(type);
+  add_page(type, [](const PyInflation& run) {
+    ReportRun shown = memory_report("opening", to_json(run.result), run.made.settings());
+    shown.plots = opening_plots(shown, memory_table(run.history.rows), {}, memory_table(run.history.frames));
+    shown.shape = memory_shape(run.mesh, run.shots);
+    return shown;
+  });
   type.def_property_readonly(
       "case", [](const PyInflation& run) { return run.made; }, "Case of the opening.");
   type.def_property_readonly(

@@ -11,6 +11,7 @@
 #include "arrays.h"
 #include "module.h"
 #include "ripstop/cloth/cloth.h"
+#include "ripstop/parachute/canopy_mesh.h"
 #include "ripstop/run/opening/inflation.h"
 #include "ripstop/run/steady/finished_steady.h"
 #include "ripstop/run/steady/steady.h"
@@ -48,7 +49,9 @@ struct PyInflation {
   std::vector<Vec3> shape, velocity;  // at the end, as the mesh numbers its nodes
   std::vector<Snapshot> shots;
   InflationHistory history;
+  CanopyMesh mesh;
   std::vector<Cell> cells;
+  Path folder;  // empty: in memory only
 };
 
 /// A steady run: in memory, or the folder of one.

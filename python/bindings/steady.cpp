@@ -6,6 +6,7 @@
 
 #include "members.h"
 #include "module.h"
+#include "notebook.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/run/steady/steady_folder.h"
 #include "runs.h"
@@ -184,6 +185,13 @@ void add_steady(py::module_& module) {
   add_members(type, result);
   add_json(type, result);
   add_arrays(type);
+  add_page(type, [](const PySteady& run) {
+    const Settings resolved = run.made.settings();
+    ReportRun shown = memory_report("steady", to_json(run.result), resolved);
+    shown.plots = iteration_plots(memory_table(run.state.iterations));
+    shown.shape = memory_shape(parachute_mesh(resolved), run.state.shape, run.stress);
+    return shown;
+  });
   type.def_property_readonly(
       "case", [](const PySteady& run) { return run.made; }, "Case of the run.");
   type.def_property_readonly(

@@ -15,7 +15,7 @@ memory of the library. Every failure raises Error with the message of the progra
 import os
 import pathlib
 
-from . import _ripstop
+from . import _notebook, _ripstop
 from ._ripstop import *  # noqa: F403 - all that the stub of _ripstop lists
 from ._ripstop import __version__
 
@@ -26,6 +26,8 @@ def _restored_case(*state):
     """A case from its pickle."""
     return _ripstop.Case._restored(*state)
 
+
+_notebook.add_to(_ripstop)
 
 # A wheel contains materials and examples; an installed or built library finds its own.
 _data = pathlib.Path(__file__).parent / "data"

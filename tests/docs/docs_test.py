@@ -134,10 +134,6 @@ class Docs(unittest.TestCase):
                           if not re.search(rf"[\"'>`]{re.escape(label)}(?!\w)", shown)  # a text of the page
                           and not re.search(rf'"{label.strip("[]").split(".")[-1].replace(" ", "_")}(?:_m)?": ', keys)], [])  # the name of a key
 
-    def test_the_citation_has_the_version_of_the_project(self):
-        version = re.search(r"project\(ripstop VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
-        self.assertRegex((ROOT / "CITATION.cff").read_text(), rf"(?m)^version: {re.escape(version)}$")
-
     def test_rooms_look_to_their_left_only(self):
         left = collections.defaultdict(set)
         for line in re.findall(r"^    (\w[\w, ]* <- .*)$", (ROOT / "src/README.md").read_text(), re.MULTILINE):

@@ -15,6 +15,7 @@
 #include "../refusal.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/hash.h"
+#include "ripstop/core/toml/document.h"
 
 namespace ripstop {
 namespace {
@@ -37,6 +38,30 @@ TEST(WriteFile, BytesComeBackAndNothingElseIsLeft) {
     EXPECT_TRUE(read_file(folder.path / "a") == content);
   }
   EXPECT_EQ(files_in(folder.path), 1u);
+}
+
+TEST(File, APathOfWindowsIsRefusedWithItsNameInWsl) {
+  const TemporaryFolder folder("file-windows");
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path);
+  for (const auto& [path, name] :
+       {std::pair{"C:\\Users\\me\\first", "/mnt/c/Users/me/first"}, {"d:/runs/first", "/mnt/d/runs/first"}}) {
+    for (const std::function<void()>& make : std::vector<std::function<void()>>{
+             [&, path = path] { make_folder(path); }, [&, path = path] { write_file(path, "text"); }})
+      EXPECT_EQ(refusal_of(make, ExitCode::usage),
+                std::string(path) + ": is a path of Windows; within WSL it is " + name);
+    const std::string advice = refusal_of([&, path = path] { read_file(path); }, ExitCode::io);
+    EXPECT_NE(advice.find(std::string("within WSL it is ") + name), std::string::npos) << advice;
+    const std::string case_file = refusal_of([&, path = path] { read_text_file(path); }, ExitCode::io);
+    EXPECT_NE(case_file.find(std::string("within WSL it is ") + name), std::string::npos) << case_file;
+    const std::string of_a_case =  // a file named by a case, next to which it is looked for
+        refusal_of([&, path = path] { read_file(folder.path / path); }, ExitCode::io);
+    EXPECT_NE(of_a_case.find(std::string("within WSL it is ") + name), std::string::npos) << of_a_case;
+  }
+  EXPECT_EQ(files_in(folder.path), 0u);
+  make_folder("a:b");  // a name of Linux
+  EXPECT_TRUE(std::filesystem::is_directory(folder.path / "a:b"));
+  std::filesystem::current_path(before);
 }
 
 TEST(WriteFile, FilesOfAKilledWriterAreRemovedAndThoseOfALivingOneRemain) {

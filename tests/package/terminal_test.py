@@ -1,11 +1,17 @@
-"""Manual pages and shell completion made from --help: every command has a page, and each installed shell completes in the same way."""
+"""Manual pages and shell completion made from --help: every command has a page, and each installed shell completes in the same way.
+The progress of a run fits into a line of the terminal."""
+import fcntl
 import gzip
 import os
 import pathlib
+import pty
+import re
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
+import termios
 import unittest
 
 SOURCE = pathlib.Path(__file__).resolve().parent.parent.parent
@@ -17,6 +23,26 @@ COMP_WORDS=("$@"); COMP_CWORD=$(( $# - 1 )); _ripstop; printf '%s\\n' "${COMPREP
 
 def run(*words):
     return subprocess.run(list(map(str, words)), capture_output=True, text=True, check=True).stdout
+
+
+def on_a_terminal(columns, *words):
+    """Bytes that the program sends to a terminal of so many columns, as its standard error."""
+    ours, theirs = pty.openpty()
+    fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
+    process = subprocess.Popen([PROGRAM, *map(str, words)], stderr=theirs, stdout=subprocess.DEVNULL)
+    os.close(theirs)
+    sent = b""
+    while True:
+        try:
+            part = os.read(ours, 65536)
+        except OSError:  # the program has ended
+            break
+        if not part:
+            break
+        sent += part
+    os.close(ours)
+    process.wait()
+    return sent.decode()
 
 
 class Terminal(unittest.TestCase):
@@ -52,6 +78,16 @@ class Terminal(unittest.TestCase):
         self.assertIn("porosity", self.complete("calibrate", ""))
         self.assertIn("--measured", self.complete("calibrate", "porosity", "--"))
         self.assertEqual(self.complete("steady", "ca"), [])  # a file of the folder, which bash completes
+
+    def test_progress_is_one_line_of_the_terminal(self):
+        for columns in (80, 30):
+            sent = on_a_terminal(columns, "steady", SOURCE / "examples/stratos-iv/case.toml", "--grid", "40,40,60", "--set",
+                                 "parachute.mesh.cloth_nodes=1500", "--set", "coupling.max_iterations=1", "--set", "coupling.threads=1", "--out",
+                                 self.out / f"run-{columns}")
+            shown = re.findall(r"\r\x1b\[K([^\r\n]*)", sent)
+            self.assertGreater(len(shown), 2, sent)
+            self.assertLess(max(map(len, shown)), columns)
+            self.assertGreater(max(map(len, shown)), 25)
 
     @unittest.skipUnless(shutil.which("fish"), "fish is not installed")
     def test_fish_completes_commands_and_values(self):

@@ -1,17 +1,25 @@
-// The folder of a run, and refused folders.
+// The folder of a run, refused folders, and those of other versions.
 #include "ripstop/run/run_folder.h"
 
 #include <gtest/gtest.h>
 
 #include <ctime>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
+#include "../refusal.h"
 #include "ripstop/case/resolve.h"
 #include "ripstop/core/build_info.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/hash.h"
+#include "ripstop/run/report/compare_runs.h"
+#include "ripstop/run/report/report.h"
+#include "ripstop/run/steady/finished_steady.h"
 #include "ripstop/run/steady/steady_folder.h"
 
 namespace ripstop {
@@ -155,6 +163,64 @@ TEST(RunFolder, ACheckRefusesTheSameAsTheRunAndChangesNothing) {
   EXPECT_FALSE(fs::exists(root.path / "run"));
   const ClaimedFolder held(root.path / "run");
   EXPECT_THROW(check_steady_in(settings, resolve(given)), Error);  // somebody works there
+}
+
+std::map<std::string, std::string> content_of(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) files[entry.path().lexically_relative(folder)] = read_file(entry.path());
+  return files;
+}
+
+/// tests/run/run-0.1.0 has the text files of a steady run that version 0.1.0 computed.
+TEST(EarlierVersion, AFolderWithoutRecordsIsRefusedAndUnchanged) {
+  const TemporaryFolder root("run-0.1.0");
+  const fs::path folder = root.path / "run";
+  fs::copy(fs::path(RIPSTOP_SOURCE_DIR) / "tests/run/run-0.1.0", folder, fs::copy_options::recursive);
+  const auto before = content_of(folder);
+  ASSERT_TRUE(before.contains("result.json"));
+  const Settings resolved = resolve(read_case(folder / "case.toml"));  // its case is one of this version
+  EXPECT_EQ(resolved.parachute().gores, 6);
+  const std::vector<std::function<void()>> uses = {[&] { open_run_folder({folder}, resolved, "engine", 1); },
+                                                   [&] {
+                                                     open_run_folder({folder, true}, resolved, "engine", 1);
+                                                   },
+                                                   [&] { write_report({folder}); },
+                                                   [&] { finished_steady(folder); },
+                                                   [&] {
+                                                     compare_runs({folder, folder});
+                                                   }};
+  for (const auto& use : uses) {
+    const std::string message = refusal_of(use, ExitCode::usage);
+    EXPECT_NE(message.find("is a run of Ripstop 0.1.0 without the records"), std::string::npos) << message;
+    EXPECT_NE(message.find("version " + std::string(version()) + " needs"), std::string::npos) << message;
+    EXPECT_EQ(content_of(folder), before);
+  }
+}
+
+TEST(EarlierVersion, ARunOfAnotherVersionIsReadButNotContinued) {
+  const TemporaryFolder root("other-version");
+  const fs::path folder = root.path / "run";
+  const Settings resolved =
+      resolve(read_case(fs::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml"));
+  {
+    const auto run = open_run_folder({folder, false, false, false}, resolved, "engine", 1);
+    auto description = nlohmann::ordered_json::parse(read_file(folder / "run.json"));
+    description["version"] = "0.9.0";
+    run->write("run.json", description.dump(2));
+    run->note("inputs", "the hash of version 0.9.0");
+    SteadyResult result;
+    result.drag = 396.8, result.converged = true;
+    EXPECT_EQ(run->end(result), "");
+  }
+  const std::string message =
+      refusal_of([&] { open_run_folder({folder}, resolved, "engine", 1); }, ExitCode::usage);
+  EXPECT_NE(message.find("contains a run of Ripstop 0.9.0, which version " + std::string(version()) +
+                         " does not continue"),
+            std::string::npos)
+      << message;
+  EXPECT_NE(finished_result(folder).value().find("396.8"), std::string::npos);
+  EXPECT_TRUE(open_run_folder({folder, true}, resolved, "engine", 1) != nullptr);  // --fresh replaces it
 }
 
 }  // namespace

@@ -274,7 +274,7 @@ class OpenRocketImporter {
 
 }  // namespace
 
-const RecoveryDevice& choose_device(const OpenRocketFile& file, const std::string& wanted) {
+const RecoveryDevice& choose_device(const OpenRocketFile& file, std::string_view wanted) {
   if (file.devices.empty()) throw Error(ExitCode::bad_data, "the file has no parachute and no streamer");
   std::size_t number = 0;
   const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), number);

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "ripstop/case/imported_case.h"
 #include "ripstop/case/openrocket_file.h"
@@ -25,7 +26,7 @@ struct OpenRocketImportOptions {
 
 /// The device that `wanted` names: its number in the list, counted from 1, or its name. Empty: the only parachute of
 /// the file. Throws Error(usage) with the list of devices where there is a choice or none fits.
-const RecoveryDevice& choose_device(const OpenRocketFile& file, const std::string& wanted);
+const RecoveryDevice& choose_device(const OpenRocketFile& file, std::string_view wanted);
 
 /// A flat circular canopy whose drag area is that of the device. `source` names the file in the case. Throws
 /// Error(bad_data) for a streamer and for a device without a diameter.

@@ -155,6 +155,7 @@ bool has_no_locks(int reason) {
 ClaimedFolder::ClaimedFolder(fs::path folder) : ClaimedFolder(std::move(folder), ::flock) {}
 
 ClaimedFolder::ClaimedFolder(fs::path folder, LockCall lock) : folder_(std::move(folder)) {
+  make_folder(folder_);
   make_folder(folder_ / records);
   lock_ = ::open(lock_of(folder_).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (lock_ < 0) {

@@ -13,15 +13,26 @@
 #include <utility>
 
 #include "ripstop/core/error.h"
+#include "ripstop/core/wsl_path.h"
 
 namespace ripstop {
 namespace {
 
+/// Linux would make a file or folder with this name in the current folder.
+void refuse_path_of_windows(const std::filesystem::path& path) {
+  const std::string name = path_in_wsl(path);
+  if (!name.empty() && !path.is_absolute())
+    throw Error(ExitCode::usage,
+                fmt::format("{}: is a path of Windows; within WSL it is {}", path.string(), name));
+}
+
 [[noreturn]] void fail(const char* task, const std::filesystem::path& path, int reason) {
-  const char* advice = "";
+  std::string advice;
   if (reason == ENOSPC || reason == EDQUOT) advice = "; free some space, or use another folder";
   if (reason == EACCES || reason == EPERM || reason == EROFS)
     advice = "; choose a folder with write permission";
+  if (const std::string name = path_in_wsl(path); reason == ENOENT && !name.empty())
+    advice = fmt::format("; it is a path of Windows, and within WSL it is {}", name);
   throw Error(ExitCode::io, fmt::format("cannot {} {}: {}{}", task, path.string(),
                                         std::generic_category().message(reason), advice));
 }
@@ -111,6 +122,7 @@ std::string written_as(const std::string& file) {
 }
 
 void write_file(const std::filesystem::path& path, std::string_view bytes) {
+  refuse_path_of_windows(path);
   drop_leftovers(path);
   std::filesystem::path temporary;
   const int opened = open_temporary(path, temporary);
@@ -153,6 +165,7 @@ std::string read_file(const std::filesystem::path& path) {
 }
 
 void make_folder(const std::filesystem::path& folder) {
+  refuse_path_of_windows(folder);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) fail("create folder", folder, error.value());

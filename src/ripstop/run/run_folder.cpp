@@ -39,6 +39,14 @@ ordered_json sources_of(const Settings& resolved) {
 constexpr const char* inputs = "inputs";    // the note with the inputs of the run
 constexpr const char* started = "started";  // and of when it was begun
 
+/// The version of Ripstop that wrote run.json; empty: there is none that can be read.
+std::string version_in(const fs::path& folder) {
+  if (!fs::is_regular_file(folder / "run.json")) return {};
+  const ordered_json run = ordered_json::parse(read_file(folder / "run.json"), nullptr, false);
+  const auto found = run.is_object() ? run.find("version") : run.end();
+  return found != run.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
 /// A start that was refused, failed or was killed before anything was computed is in nobody's way.
 bool has_got_anywhere(const fs::path& folder) {
   return is_sealed(folder) || fs::exists(folder / "checkpoint");
@@ -56,6 +64,7 @@ bool holds_run(const RunSettings& settings, const Settings& resolved, const std:
   const fs::path& folder = settings.folder;
   const std::optional<std::string> earlier = noted(folder, inputs);
   if (!earlier) {
+    refuse_without_records(folder);
     const std::vector<std::string> foreign = foreign_files(folder);
     if (foreign.empty()) return false;
     throw Error(
@@ -67,10 +76,26 @@ bool holds_run(const RunSettings& settings, const Settings& resolved, const std:
   if (settings.fresh) return false;
   if (*earlier == inputs_hash(resolved, solver)) return true;
   if (!has_got_anywhere(folder)) return false;
+  if (const std::string other = version_in(folder); !other.empty() && other != version())
+    throw Error(ExitCode::usage,
+                fmt::format("{}: contains a run of Ripstop {}, which version {} does not continue; choose "
+                            "another --out, or replace it with --fresh",
+                            folder.string(), other, version()));
   throw Error(ExitCode::usage,
               fmt::format("{}: contains a run with different inputs (case, speed, grid, ranks, program or "
                           "flow engine); choose another --out, or replace it with --fresh",
                           folder.string()));
+}
+
+void refuse_without_records(const fs::path& folder) {
+  constexpr const char* records = ".ripstop";  // of ClaimedFolder
+  const std::string written_by = version_in(folder);
+  if (written_by.empty() || fs::exists(folder / records)) return;
+  throw Error(
+      ExitCode::usage,
+      fmt::format("{}: is a run of Ripstop {} without the records of its files ({}) that version {} "
+                  "needs; copy the folder with them, or compute its case.toml again with another --out",
+                  folder.string(), written_by, records, version()));
 }
 
 std::optional<std::string> RunFolder::finished() const {
@@ -145,6 +170,7 @@ void refuse_lost(const ClaimedFolder& folder) {
 }
 
 std::optional<std::string> finished_result(const fs::path& folder) {
+  refuse_without_records(folder);
   if (!is_sealed(folder)) return std::nullopt;
   require_whole(folder);
   const std::string text = read_file(folder / "result.json");

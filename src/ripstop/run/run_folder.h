@@ -35,6 +35,10 @@ std::filesystem::path default_run_folder(const std::filesystem::path& case_file,
 /// and for one with other files and without a run.
 bool holds_run(const RunSettings& settings, const Settings& resolved, const std::string& solver);
 
+/// Throws Error(usage) for the folder of a run that has no records of its files: one of an early version, or a copy
+/// without them.
+void refuse_without_records(const std::filesystem::path& folder);
+
 /// The folder of one run while the run uses it.
 class RunFolder : public ClaimedFolder {
  public:

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
+#include <string_view>
 
 #include "ripstop/core/error.h"
 #include "ripstop/run/margins.h"
@@ -26,10 +29,10 @@ LoadRequest request() {
   return r;
 }
 
-const SafeSpeed& by(const FastestResult& r, const std::string& method) {
+const SafeSpeed& by(const FastestResult& r, std::string_view method) {
   for (const SafeSpeed& s : r.methods)
     if (s.method == method) return s;
-  throw std::runtime_error("no method " + method);
+  throw std::runtime_error("no method " + std::string(method));
 }
 
 TEST(Fastest, HasTheSpeedAtWhichTheWeakestMemberIsAtItsLimitByEveryMethod) {

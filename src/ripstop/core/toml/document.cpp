@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "ripstop/core/toml/problem.h"
+#include "ripstop/core/wsl_path.h"
 
 namespace ripstop {
 namespace {
@@ -98,7 +99,14 @@ std::string read_text_file(const std::filesystem::path& file) {
         ExitCode::io,
         fmt::format("{}: is a pipe or a device, not a file; write its content into a file", file.string()));
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw Error(ExitCode::io, fmt::format("{}: cannot be opened; check the path", file.string()));
+  if (!stream) {
+    const std::string name = path_in_wsl(file);
+    throw Error(
+        ExitCode::io,
+        fmt::format("{}: cannot be opened; {}", file.string(),
+                    name.empty() ? "check the path"
+                                 : fmt::format("it is a path of Windows, and within WSL it is {}", name)));
+  }
   std::string text(max_file_bytes + 1, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (stream.bad()) throw Error(ExitCode::io, fmt::format("{}: cannot be read", file.string()));

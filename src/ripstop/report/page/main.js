@@ -6,7 +6,7 @@ const Page = (() => {
   let shapes = null;  // the one ShapeSection, moved to the run that is shown
   const sections = [];
   const figures = [];
-  const kinds = { opening: "Opening", flight: "Flight", steady: "Steady run", size: "Sizing", stability: "Stability",
+  const kinds = { opening: "Opening", flight: "Flight", steady: "Steady run", fabric: "Cloth under a pressure", size: "Sizing", stability: "Stability",
     recovery: "Recovery", "flight-log": "Flight log" };
 
   function headline(run) {
@@ -38,7 +38,7 @@ const Page = (() => {
     // Next to the shape that they belong to.
     const beside = run.shape ? plots.figures.filter((figure) => ["load", ...(run.kind === "flight" ? ["angle"] : [])].includes(figure.plot.id)) : [];
     for (const figure of beside) figure.node.classList.add("wide-plot");
-    const heading = { opening: "Shape and force", flight: "Shape, path and force" }[run.kind] ?? "Shape and air";
+    const heading = { opening: "Shape and force", flight: "Shape, path and force", fabric: "Shape" }[run.kind] ?? "Shape and air";
     const about = ["bill", "sources"];
     const own = run.tables.filter((table) => !about.includes(table.id)), rest = run.tables.filter((table) => about.includes(table.id));
     const node = element("section", { class: "run", id: `run-${index}`, role: "tabpanel", "aria-label": run.name },

@@ -83,19 +83,7 @@ ReportRun report_of(const fs::path& folder) {
   run.name = name_of(folder);
   add_result(run, read_file(result), result);
   run.kind = number_of(run, "peak_load_n") == number_of(run, "peak_load_n") ? "opening" : "steady";
-  run.headline =
-      run.kind == "opening"
-          ? std::vector<std::string>{"peak_load_n",    "low_pass_peak_load_n", "knacke_load_n",
-                                     "weakest_member", "margin_of_safety",     "steady_load_n",
-                                     "filling_time_s", "speed_at_end_m_s",     "max_line_tension_n"}
-          : std::vector<std::string>{"speed_m_s",
-                                     "drag_n",
-                                     "drag_coefficient",
-                                     "drag_area_m2",
-                                     "projected_diameter_m",
-                                     "max_line_tension_n",
-                                     "weakest_member",
-                                     "margin_of_safety"};
+  run.headline = headline_of(run.kind);
   const Settings resolved = settings_of_run(folder);
   run.case_file = read_file(folder / "case.toml");
   run.tables.push_back(bill_table(resolved));
@@ -116,6 +104,7 @@ ReportRun report_of(const fs::path& folder) {
 }
 
 std::vector<ReportRun> reports_of(const fs::path& folder) {
+  refuse_without_records(folder);
   if (is_sealed(folder)) require_whole(folder, report_name);
   std::vector<ReportRun> runs;
   if (!is_sweep(folder)) runs.push_back(report_of(folder));

@@ -14,6 +14,7 @@
 #include "ripstop/output/csv.h"
 #include "ripstop/run/flight/flight_folder.h"
 #include "ripstop/run/report/report_plots.h"
+#include "ripstop/run/report/report_tables.h"
 #include "ripstop/run/report/shape_files.h"
 
 namespace ripstop::inline run {
@@ -134,16 +135,17 @@ bool is_flight(const ReportRun& run) {
                      [](const ReportValue& value) { return value.key == "descent_drag_coefficient"; });
 }
 
+std::vector<ReportPlot> flight_plots(const std::vector<FreeFlightRow>& rows) {
+  return plots_from({}, rows);
+}
+
 std::vector<ReportPlot> flight_plots(const fs::path& folder) {
   return plots_from(inflation_in(folder), read_rows<FreeFlightRow>(folder / "path.csv"));
 }
 
 void add_flight(ReportRun& run, const Settings& resolved, const fs::path& folder) {
   run.kind = "flight";
-  run.headline = {"rate_of_descent_m_s",  "descent_drag_coefficient", "axial_drag_coefficient",
-                  "glide_ratio",          "mean_oscillation_deg",     "largest_oscillation_deg",
-                  "oscillation_period_s", "largest_line_force_n",     "load_factor",
-                  "weakest_member",       "margin_of_safety",         "ended_by"};
+  run.headline = headline_of(run.kind);
   const auto rows = read_rows<FreeFlightRow>(folder / "path.csv");
   const Before before = inflation_in(folder);
   run.plots = plots_from(before, rows);

@@ -14,11 +14,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Columns of a table over another one; nothing where there is no such file.
-void add_plot(std::vector<ReportPlot>& plots, const fs::path& file, const std::string& x, ReportPlot plot,
+/// Without rows where there is no such file.
+CsvTable table_in(const fs::path& file) {
+  return fs::exists(file) ? read_csv(file) : CsvTable();
+}
+
+/// Columns of a table over another one; nothing without rows.
+void add_plot(std::vector<ReportPlot>& plots, const CsvTable& table, const std::string& x, ReportPlot plot,
               const std::vector<std::pair<std::string, std::string>>& columns) {
-  if (!fs::exists(file)) return;
-  const CsvTable table = read_csv(file);
   if (table.rows.empty()) return;
   const std::vector<double> along = table.column(x);
   for (const auto& [column, name] : columns) {
@@ -40,34 +43,23 @@ ReportPlot plot(const char* id, const char* title, ReportColumn x, ReportColumn 
 const ReportColumn seconds{"time", "s"}, newtons{"axial force", "N"}, iterations{"coupling iteration", ""};
 
 std::vector<ReportPlot> steady_plots(const fs::path& folder) {
-  std::vector<ReportPlot> plots;
-  add_plot(plots, folder / "iterations.csv", "iteration",
-           plot("forces", "Axial forces, equal in equilibrium", iterations, newtons),
-           {{"drag_n", "air load"},
-            {"nodal_load_n", "cloth load"},
-            {"line_tension_n", "line load"},
-            {"momentum_deficit_n", "momentum deficit"}});
-  ReportPlot changes = plot("changes", "Convergence", iterations, {"relative change or residual", ""});
-  changes.logarithmic = true;
-  add_plot(
-      plots, folder / "iterations.csv", "iteration", changes,
-      {{"drag_change", "change of drag"}, {"omega", "change of shape"}, {"flow_residual", "flow residual"}});
+  std::vector<ReportPlot> plots = iteration_plots(table_in(folder / "iterations.csv"));
   ReportPlot history = plot("history", "Drag over time", seconds, newtons);
-  add_plot(plots, folder / "history.csv", "time_s", history,
+  add_plot(plots, table_in(folder / "history.csv"), "time_s", history,
            {{"drag_n", "drag"}, {"force_x_n", "side force along x"}, {"force_y_n", "side force along y"}});
-  add_plot(plots, folder / "pressure.csv", "arc_m",
+  const CsvTable pressure = table_in(folder / "pressure.csv");
+  add_plot(plots, pressure, "arc_m",
            plot("pressure", "Pressure along a gore", {"along the cloth from the vent", "m"},
                 {"pressure coefficient", ""}),
            {{"cp_inside", "inside"}, {"cp_outside", "outside"}, {"cp_load", "cloth load"}});
-  add_plot(plots, folder / "pressure.csv", "z_m",
-           plot("profile", "Profile", {"along the stream", "m"}, {"radius", "m"}),
+  add_plot(plots, pressure, "z_m", plot("profile", "Profile", {"along the stream", "m"}, {"radius", "m"}),
            {{"radius_m", "mean over the gores"}});
   return plots;
 }
 
 void add_line_plot(std::vector<ReportPlot>& plots, const fs::path& folder) {
   std::vector<ReportPlot> lines;
-  add_plot(lines, folder / "lines.csv", "line",
+  add_plot(lines, table_in(folder / "lines.csv"), "line",
            plot("lines", "Line tensions", {"line", ""}, {"tension", "N"}),
            {{"free_tension_n", "below the skirt"},
             {"largest_tension_n", "maximum along the line"},
@@ -76,42 +68,6 @@ void add_line_plot(std::vector<ReportPlot>& plots, const fs::path& folder) {
     for (ReportSeries& series : found.series) series.line = false;
     plots.push_back(found);
   }
-}
-
-std::vector<ReportPlot> opening_plots(const ReportRun& run, const fs::path& folder) {
-  std::vector<ReportPlot> plots;
-  ReportPlot load = plot("load", "Load on the riser", {"time from deployment", "s"}, {"axial load", "N"});
-  load.over_time = true;
-  add_plot(plots, folder / "history.csv", "time_s", load,
-           {{"load_largest_n", "maximum in the interval"}, {"load_mean_n", "load"}});
-  if (!plots.empty()) {
-    std::vector<ReportPlot> smooth;
-    add_plot(smooth, folder / "history_low_pass.csv", "time_s", load, {{"load_n", "low-passed"}});
-    if (!smooth.empty()) plots[0].series.push_back(smooth[0].series[0]);
-    const double end = plots[0].series[0].x.back();
-    for (const auto& [key, name] : {std::pair{"steady_load_n", "steady"},
-                                    {"knacke_load_n", "infinite mass, C_x C_D S0 q"},
-                                    {"measured_peak_n", "measured peak"},
-                                    {"printed_peak_n", "peak, model of the source"}}) {
-      const double level = number_of(run, key);
-      if (std::isfinite(level)) plots[0].series.push_back({name, {0, end}, {level, level}, true, true});
-    }
-  }
-  ReportPlot size = plot("size", "Diameters", {"time from deployment", "s"}, {"diameter", "m"});
-  ReportPlot stress =
-      plot("stress", "Maximum stress", {"time from deployment", "s"}, {"von Mises stress", "N/m"});
-  ReportPlot energy = plot("energy", "Energy balance", {"time from deployment", "s"}, {"energy", "J"});
-  size.over_time = stress.over_time = energy.over_time = true;
-  const fs::path balance = folder / "balance.csv";
-  add_plot(plots, balance, "time_s", size,
-           {{"projected_diameter_m", "projected"}, {"skirt_diameter_m", "skirt"}});
-  add_plot(plots, balance, "time_s", stress, {{"max_von_mises_n_m", "maximum in the cloth"}});
-  add_plot(plots, balance, "time_s", energy,
-           {{"pressure_work_j", "work of the pressure"},
-            {"kinetic_energy_j", "kinetic"},
-            {"elastic_energy_j", "elastic"},
-            {"damped_energy_j", "damped"}});
-  return plots;
 }
 
 /// Drag of the case's measured rows over the speed that its speed_basis takes.
@@ -173,8 +129,64 @@ ReportSeries thinned(ReportSeries series) {
   return kept;
 }
 
+std::vector<ReportPlot> iteration_plots(const CsvTable& rows) {
+  std::vector<ReportPlot> plots;
+  add_plot(plots, rows, "iteration",
+           plot("forces", "Axial forces, equal in equilibrium", iterations, newtons),
+           {{"drag_n", "air load"},
+            {"nodal_load_n", "cloth load"},
+            {"line_tension_n", "line load"},
+            {"momentum_deficit_n", "momentum deficit"}});
+  ReportPlot changes = plot("changes", "Convergence", iterations, {"relative change or residual", ""});
+  changes.logarithmic = true;
+  add_plot(
+      plots, rows, "iteration", changes,
+      {{"drag_change", "change of drag"}, {"omega", "change of shape"}, {"flow_residual", "flow residual"}});
+  return plots;
+}
+
+std::vector<ReportPlot> opening_plots(const ReportRun& run, const CsvTable& history, const CsvTable& smooth,
+                                      const CsvTable& balance) {
+  std::vector<ReportPlot> plots;
+  ReportPlot load = plot("load", "Load on the riser", {"time from deployment", "s"}, {"axial load", "N"});
+  load.over_time = true;
+  add_plot(plots, history, "time_s", load,
+           {{"load_largest_n", "maximum in the interval"}, {"load_mean_n", "load"}});
+  if (!plots.empty()) {
+    std::vector<ReportPlot> filtered;
+    add_plot(filtered, smooth, "time_s", load, {{"load_n", "low-passed"}});
+    if (!filtered.empty()) plots[0].series.push_back(filtered[0].series[0]);
+    const double end = plots[0].series[0].x.back();
+    for (const auto& [key, name] : {std::pair{"steady_load_n", "steady"},
+                                    {"knacke_load_n", "infinite mass, C_x C_D S0 q"},
+                                    {"measured_peak_n", "measured peak"},
+                                    {"printed_peak_n", "peak, model of the source"}}) {
+      const double level = number_of(run, key);
+      if (std::isfinite(level)) plots[0].series.push_back({name, {0, end}, {level, level}, true, true});
+    }
+  }
+  ReportPlot size = plot("size", "Diameters", {"time from deployment", "s"}, {"diameter", "m"});
+  ReportPlot stress =
+      plot("stress", "Maximum stress", {"time from deployment", "s"}, {"von Mises stress", "N/m"});
+  ReportPlot energy = plot("energy", "Energy balance", {"time from deployment", "s"}, {"energy", "J"});
+  size.over_time = stress.over_time = energy.over_time = true;
+  add_plot(plots, balance, "time_s", size,
+           {{"projected_diameter_m", "projected"}, {"skirt_diameter_m", "skirt"}});
+  add_plot(plots, balance, "time_s", stress, {{"max_von_mises_n_m", "maximum in the cloth"}});
+  add_plot(plots, balance, "time_s", energy,
+           {{"pressure_work_j", "work of the pressure"},
+            {"kinetic_energy_j", "kinetic"},
+            {"elastic_energy_j", "elastic"},
+            {"damped_energy_j", "damped"}});
+  return plots;
+}
+
 std::vector<ReportPlot> plots_of(const ReportRun& run, const fs::path& folder) {
-  std::vector<ReportPlot> plots = run.kind == "opening" ? opening_plots(run, folder) : steady_plots(folder);
+  std::vector<ReportPlot> plots =
+      run.kind == "opening"
+          ? opening_plots(run, table_in(folder / "history.csv"), table_in(folder / "history_low_pass.csv"),
+                          table_in(folder / "balance.csv"))
+          : steady_plots(folder);
   add_line_plot(plots, folder);
   return plots;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "ripstop/case/settings.h"
+#include "ripstop/output/csv.h"
 #include "ripstop/report/report.h"
 
 namespace ripstop::inline run {
@@ -12,6 +13,11 @@ namespace ripstop::inline run {
 /// As a screen shows it: of every stretch its least and its largest value.
 ReportSeries thinned(ReportSeries series);
 
+/// Of the rows of iterations.csv.
+std::vector<ReportPlot> iteration_plots(const CsvTable& rows);
+/// Of the rows of history.csv, history_low_pass.csv and balance.csv, which may have none.
+std::vector<ReportPlot> opening_plots(const ReportRun& run, const CsvTable& history, const CsvTable& smooth,
+                                      const CsvTable& balance);
 /// Those whose tables are there. Throws Error(bad_data) for a table without its columns.
 std::vector<ReportPlot> plots_of(const ReportRun& run, const std::filesystem::path& folder);
 

@@ -122,6 +122,23 @@ void add_result(ReportRun& run, const std::string& text, const std::filesystem::
   run.converged = json.value("converged", true);
 }
 
+std::vector<std::string> headline_of(const std::string& kind) {
+  if (kind == "opening")
+    return {"peak_load_n",    "low_pass_peak_load_n", "knacke_load_n",
+            "weakest_member", "margin_of_safety",     "steady_load_n",
+            "filling_time_s", "speed_at_end_m_s",     "max_line_tension_n"};
+  if (kind == "flight")
+    return {"rate_of_descent_m_s",  "descent_drag_coefficient", "axial_drag_coefficient",
+            "glide_ratio",          "mean_oscillation_deg",     "largest_oscillation_deg",
+            "oscillation_period_s", "largest_line_force_n",     "load_factor",
+            "weakest_member",       "margin_of_safety",         "ended_by"};
+  if (kind == "fabric")
+    return {"pressure_pa",        "pressure_load_n",   "projected_diameter_m", "projected_over_nominal",
+            "max_line_tension_n", "max_von_mises_n_m", "max_cloth_strain"};
+  return {"speed_m_s",          "drag_n",         "drag_coefficient", "drag_area_m2", "projected_diameter_m",
+          "max_line_tension_n", "weakest_member", "margin_of_safety"};
+}
+
 ReportTable bill_table(const Settings& resolved) {
   const PatternResult pattern = run_pattern(resolved, {}, packed_by_hand);
   ReportTable table{"bill",

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "ripstop/case/settings.h"
 #include "ripstop/report/report.h"
@@ -12,6 +13,9 @@ namespace ripstop::inline run {
 /// Plain values of a result.json into `run.values`; every list of rows and every group of values in it, whatever
 /// its name, is a table. Throws Error(bad_data) naming `file`.
 void add_result(ReportRun& run, const std::string& json, const std::filesystem::path& file);
+
+/// Keys of the values that the page of a run of this kind begins with.
+std::vector<std::string> headline_of(const std::string& kind);
 
 ReportTable bill_table(const Settings& resolved);
 /// Values of the case that may be left out, and where each comes from, by run.json.
