@@ -314,7 +314,7 @@ TEST(Load, EveryMethodIsAskedInTheConditionsOfItsStage) {
     }
     EXPECT_EQ(method(stage, "infinite mass").applies, !slowed);
     EXPECT_EQ(method(stage, "infinite mass").note,
-              slowed ? "an upper bound on a horizontal path: the speed decreases during filling"
+              slowed ? "upper bound on a horizontal path: the speed decreases during filling"
                      : "the speed decreases little during filling");
     EXPECT_EQ(
         method(stage, "momentum-impulse").note.find("filling from zero drag area; speed after filling ") == 0,

@@ -56,7 +56,7 @@ TEST(Warnings, AGridIsWarnedOfWhereTheAirsOwnLoadFindsFewerThanTenCellsAcrossThe
   EXPECT_TRUE(cells(10).empty());
   const std::vector<std::string> told = cells(6);
   ASSERT_EQ(told.size(), 1u);
-  EXPECT_EQ(told[0].find("6 flow cells across the inflated canopy: with fewer than 10 "), 0u) << told[0];
+  EXPECT_EQ(told[0].find("6.2 flow cells across the inflated canopy: with fewer than 10 "), 0u) << told[0];
   EXPECT_EQ(case_warnings(resolve(given)).size(),
             mesh_warnings(resolve(given)).size() + 1 + porosity_warnings(resolve(given)).size());
   given.coupling.load = CanopyLoad::uniform;

@@ -18,7 +18,7 @@ const Words = (() => {
 
   /** A message in which options and keys are fields, by `names`; command lines in it remain. */
   function shown(message, names = {}) {
-    return String(message).split(/(\bripstop [a-z][^;,\n]*)/).map((part, i) => (i % 2 ? part : inWords(part, names))).join("");
+    return String(message).replace(/ \(see ripstop [a-z -]*--help\)/g, "").split(/(\bripstop [a-z][^;,\n]*)/).map((part, i) => (i % 2 ? part : inWords(part, names))).join("");
   }
 
   return { name, fields, shown };
