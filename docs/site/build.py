@@ -101,6 +101,8 @@ def run_mkdocs():
     (OUT / "mkdocs.yml").write_text(settings.replace("TUTORIALS", f"[{listed}]").replace("VERSION", version()))
     environment = {**os.environ, "PYTHONPATH": str(HERE), "PYTHONDONTWRITEBYTECODE": "1"}
     subprocess.run(["mkdocs", "build", "--quiet", "--config-file", OUT / "mkdocs.yml"], check=True, env=environment)
+    for name in ("sitemap.xml", "sitemap.xml.gz"):  # for search engines of the web; the compressed one contains the time
+        (OUT / "site" / name).unlink()
     index = json.loads((OUT / "site/search/search_index.json").read_text())
     script = f"var __search = {{index: Promise.resolve({json.dumps(index)})}}\n"
     (OUT / "site/site/search_index.js").write_text(script)

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/resolve.h"
@@ -89,9 +90,9 @@ TEST_F(ReportParts, TheSourcesHaveKeyValueAndOrigin) {
   ASSERT_GT(table.rows.size(), 5u);
   bool density = false;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    EXPECT_EQ(table.rows[i].at(0), sources[i].at("key"));
+    EXPECT_EQ(table.rows[i].at(0), sources[i].at("key").get<std::string>());
     EXPECT_FALSE(table.rows[i].at(1).empty()) << table.rows[i][0];
-    EXPECT_EQ(table.rows[i].at(2), sources[i].at("from"));
+    EXPECT_EQ(table.rows[i].at(2), sources[i].at("from").get<std::string>());
     if (table.rows[i][0] != "flow.density_kg_m3") continue;
     density = true;
     EXPECT_DOUBLE_EQ(std::stod(table.rows[i][1]), resolved.flow().density_kg_m3);
