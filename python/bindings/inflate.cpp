@@ -130,6 +130,7 @@ Opening opening_of(const Case& given, const OptionalSource& steady, std::optiona
     opening.source = {fmt::format("steady run {}: {:.4g} N", folder->string(), drag), drag};
   } else {
     const PySteady& run = std::get<1>(*steady);
+    refuse_own_mesh(run);
     const double drag = drag_for_opening(run.made.settings(), run.result, "the steady run", opening.resolved);
     opening.source = {fmt::format("steady run: {:.4g} N", drag), drag};
   }

@@ -75,13 +75,15 @@ struct FabricSolution {
 /// `given` [Pa]; absent: the case's dynamic pressure.
 double fabric_pressure(const Settings& resolved, std::optional<double> given);
 
-/// Equilibrium under that pressure. Convergence is not promised.
+/// Equilibrium under that pressure. Convergence is not promised. `own`: a mesh in place of the canopy of the case
+/// (parachute/own_mesh.h); null: none.
 FabricSolution run_fabric(const Settings& resolved, std::optional<double> pressure,
-                          const std::function<void(const RelaxProgress&)>& report = {});
+                          const std::function<void(const RelaxProgress&)>& report = {},
+                          const CanopyMesh* own = nullptr);
 
 /// The same with the shape of the moment, by `threads` threads; 0: one per core.
 FabricSolution run_watched_fabric(const Settings& resolved, std::optional<double> pressure, int threads,
-                                  const RelaxWatch& watch);
+                                  const RelaxWatch& watch, const CanopyMesh* own = nullptr);
 
 /// Cloth with its stresses, and lines with their tension.
 VtkSurface fabric_canopy(const FabricSolution& solution);

@@ -126,20 +126,30 @@ std::vector<std::string> strain_warnings(const Settings& resolved, double larges
   return all;
 }
 
-std::vector<std::string> case_warnings(const Settings& resolved) {
-  std::vector<std::string> all = mesh_warnings(resolved);
-  for (const std::vector<std::string>& more :
-       {grid_warnings(resolved), porosity_warnings(resolved), body_warnings(resolved),
-        range_warnings(resolved), shape_warnings(resolved)})
-    all.insert(all.end(), more.begin(), more.end());
+namespace {
+
+using Warnings = std::vector<std::string>;
+
+Warnings joined(const std::vector<Warnings>& parts) {
+  Warnings all;
+  for (const Warnings& more : parts) all.insert(all.end(), more.begin(), more.end());
   return all;
 }
 
-std::vector<std::string> warnings_of(const Settings& resolved, double largest_cloth_strain) {
-  std::vector<std::string> all = case_warnings(resolved);
-  const std::vector<std::string> strain = strain_warnings(resolved, largest_cloth_strain);
-  all.insert(all.end(), strain.begin(), strain.end());
-  return all;
+Warnings flow_warnings(const Settings& resolved) {
+  return joined({grid_warnings(resolved), porosity_warnings(resolved), body_warnings(resolved),
+                 range_warnings(resolved)});
+}
+
+}  // namespace
+
+Warnings case_warnings(const Settings& resolved) {
+  return joined({mesh_warnings(resolved), flow_warnings(resolved), shape_warnings(resolved)});
+}
+
+Warnings warnings_of(const Settings& resolved, double largest_cloth_strain, bool own_mesh) {
+  return joined({own_mesh ? flow_warnings(resolved) : case_warnings(resolved),
+                 strain_warnings(resolved, largest_cloth_strain)});
 }
 
 }  // namespace ripstop::inline run

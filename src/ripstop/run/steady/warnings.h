@@ -22,7 +22,8 @@ std::vector<std::string> shape_warnings(const Settings& resolved);
 std::vector<std::string> case_warnings(const Settings& resolved);
 /// Materials stretched beyond their tests, and such.
 std::vector<std::string> strain_warnings(const Settings& resolved, double largest_cloth_strain);
-/// All of them.
-std::vector<std::string> warnings_of(const Settings& resolved, double largest_cloth_strain);
+/// All of them. With a mesh of the user's own: without those of the mesh and shape of the case.
+std::vector<std::string> warnings_of(const Settings& resolved, double largest_cloth_strain,
+                                     bool own_mesh = false);
 
 }  // namespace ripstop::inline run
