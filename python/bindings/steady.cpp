@@ -7,7 +7,6 @@
 #include "members.h"
 #include "module.h"
 #include "ripstop/case/assemble.h"
-#include "ripstop/core/error.h"
 #include "ripstop/run/steady/steady_folder.h"
 #include "runs.h"
 
