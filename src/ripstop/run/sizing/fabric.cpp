@@ -17,6 +17,7 @@
 #include "ripstop/parachute/own_mesh.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/run_folder.h"
+#include "ripstop/run/steady/warnings.h"
 #include "ripstop/run/stress_arrays.h"
 
 namespace ripstop::inline run {
@@ -101,6 +102,11 @@ FabricSolution run_watched_fabric(const Settings& resolved, std::optional<double
   for (const LineTension& t : line_tensions(mesh, tensions))
     r.max_line_tension = std::max(r.max_line_tension, t.largest_tension);
   r.stress = stress_peak(mesh, shape, stress);
+  r.margins = case_margins(resolved, mesh, tensions, r.stress);
+  r.warnings = margin_warnings(r.margins);
+  for (const auto& more : {own ? std::vector<std::string>() : mesh_warnings(resolved),
+                           strain_warnings(resolved, r.stress.strain)})
+    r.warnings.insert(r.warnings.end(), more.begin(), more.end());
   r.nodes = mesh.node_count();
   r.steps = relaxed.steps;
   r.residual = relaxed.residual;

@@ -15,6 +15,7 @@
 #include "ripstop/cloth/watched_relaxation.h"
 #include "ripstop/core/members.h"
 #include "ripstop/output/vtk.h"
+#include "ripstop/run/margins.h"
 
 namespace ripstop::inline run {
 
@@ -35,6 +36,8 @@ struct FabricResult {
   double tolerance = 0;
   bool converged = false;
   double wall_time = 0;  // of the relaxation [s]
+  std::optional<Margins> margins;
+  std::vector<std::string> warnings;
 };
 template <Of<FabricResult> T, class Visit>
 void each_member(T& r, Visit&& visit) {
@@ -61,6 +64,8 @@ void each_member(T& r, Visit&& visit) {
   visit("cloth_tolerance", r.tolerance);
   visit("converged", r.converged);
   visit("wall_time_s", r.wall_time);
+  visit("margins", r.margins);
+  visit("warnings", r.warnings);
 }
 std::string to_json(const FabricResult& result);
 
