@@ -185,7 +185,7 @@ void take_quality(InflationResult& r, const Settings& resolved, const Opening& s
   if (const auto text = handbook_disagreement(r.smooth_peak.value_or(r.peak_load), distance, r.handbook))
     judgement.add({*text});
   judgement.add(mesh_warnings(resolved));
-  if (solver.air()) judgement.add(range_warnings(resolved));
+  if (solver.air()) judgement.add(air_warnings(resolved));
   judgement.add(strain_warnings(resolved, r.stress.strain));
   r.usable = judgement.usable;
   r.warnings = std::move(judgement.warnings);

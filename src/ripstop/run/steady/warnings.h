@@ -16,6 +16,8 @@ std::vector<std::string> grid_warnings(const Settings& resolved);
 std::vector<std::string> porosity_warnings(const Settings& resolved);
 /// Mach and Reynolds number outside the range of the flow model.
 std::vector<std::string> range_warnings(const Settings& resolved);
+/// Of the air about a canopy in any command: the two above, and the pressure on open cloth.
+std::vector<std::string> air_warnings(const Settings& resolved);
 /// Of a profile whose apex is pulled down.
 std::vector<std::string> shape_warnings(const Settings& resolved);
 /// Warnings before the computation: the five above.
