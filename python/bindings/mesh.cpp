@@ -64,7 +64,7 @@ std::vector<int> nodes_of(const py::object& given) {
 py::array numbered(int first, std::vector<py::ssize_t> shape) {
   Numbers numbers(std::move(shape));
   std::iota(numbers.mutable_data(), numbers.mutable_data() + numbers.size(), std::int64_t{first});
-  return std::move(numbers);
+  return numbers;
 }
 
 py::array add_cloth(PyMesh& self, const std::string& name, const Points& points,
