@@ -25,8 +25,10 @@ std::vector<std::string> unmet_criteria(const SteadyIteration& last, const Coupl
     unmet.push_back(fmt::format("the shape changes by {:.2g} m (limit {:.2g} m)", last.shape_change,
                                 settings.shape_tolerance_m));
   if (!last.in_time && !(last.drag_change < settings.drag_tolerance))
-    unmet.push_back(fmt::format("the drag changes by {:.2g} % (limit {:.2g} %)", 100 * last.drag_change,
-                                100 * settings.drag_tolerance));
+    unmet.push_back(std::isfinite(last.drag_change)
+                        ? fmt::format("the drag changes by {:.2g} % (limit {:.2g} %)", 100 * last.drag_change,
+                                      100 * settings.drag_tolerance)
+                        : "the drag is known from one iteration only");
   if (!(last.regularisation_share < regularisation_tolerance))
     unmet.push_back(
         fmt::format("slack cloth is restrained to the previous shape by {:.2g} % of the load (limit "
