@@ -242,9 +242,10 @@ void check_steady_in(const SteadyFolderSettings& settings, const Settings& resol
   const fs::path& folder = settings.run.folder;
   require_hosts(settings.hostfile, resolved);
   require_unclaimed(folder);
-  const bool goes_on = holds_run(settings.run, resolved,
-                                 engine_of(resolved).name(engine_options(resolved)));  // the engine is there
-  if (goes_on && finished_result(folder)) return;
+  const std::string engine = engine_of(resolved).name(engine_options(resolved));  // it is there
+  if (!continues_run(settings.run, resolved, engine) && holds_run(settings.run, resolved, engine) &&
+      finished_result(folder))
+    return;
   if (!settings.elsewhere) require_steady_memory(resolved);
 }
 
