@@ -133,7 +133,8 @@ def main():
     versions = subprocess.run(["dpkg-query", "-W", "-f=${Package} ${Version}\n", "librecad", "inkscape"], capture_output=True, text=True,
                               check=False).stdout.splitlines()
     lines = [f"Width and height that other programs measure of the files of `ripstop pattern` ({'; '.join(versions)}). Inkscape agrees within "
-             f"{INKSCAPE_MM} mm; in a PDF the mitres of inclined lines add up to half a line of {OUTLINE} mm. The print of LibreCAD agrees within {100 * LIBRECAD:g} %: for drawings in millimetres it is 0.015 % short itself.", "",
+             f"{INKSCAPE_MM} mm; in a PDF the mitres of inclined lines add up to half a line of {OUTLINE} mm. "
+             f"The print of LibreCAD agrees within {100 * LIBRECAD:g} %: for drawings in millimetres it is 0.015 % short itself.", "",
              *tables.table(["design", "piece", "unit of the file", "measured by", "wanted, mm", "measured, mm", "largest difference, mm"], rows)]
     tables.write("drawings", "Cutting patterns in other programs", "make test-drawings", tables.here(), lines)
     print("\n".join(lines))
