@@ -84,7 +84,7 @@ TEST(ContinuedRun, HasTheNumbersOfOneThatWasAllowedAllIterations) {
   const auto with = [](const char* most) { return std::vector<Setting>{{"coupling.max_iterations", most}}; };
   const SteadyResult whole = fly_square_law(root.path / "whole", with("40"));
   ASSERT_TRUE(whole.converged);
-  ASSERT_GT(whole.iterations, 2);
+  ASSERT_GT(whole.iterations, 1);
   EXPECT_FALSE(fly_square_law(root.path / "part", with("1")).converged);
   EXPECT_THROW(
       fly_square_law(root.path / "part", {{"coupling.max_iterations", "40"}, {"flow.speed_m_s", "21"}}),
