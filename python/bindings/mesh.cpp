@@ -36,7 +36,7 @@ void refuse_own_mesh(const PySteady& run) {
 namespace {
 
 using Points = py::array_t<double, py::array::c_style | py::array::forcecast>;
-using Numbers = py::array_t<std::int64_t, py::array::c_style>;  // no numbers with fractions
+using Numbers = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
 
 std::vector<Vec3> points_of(const Points& given, py::ssize_t dimensions, const char* shape) {
   if (given.ndim() != dimensions || given.shape(dimensions - 1) != 3)
@@ -48,8 +48,12 @@ std::vector<Vec3> points_of(const Points& given, py::ssize_t dimensions, const c
 
 /// One node, or an array of any shape.
 std::vector<int> nodes_of(const py::object& given) {
-  const auto numbers = Numbers::ensure(given);
-  if (!numbers) throw py::type_error("nodes are whole numbers, or arrays of them");
+  const auto any = py::array::ensure(given);
+  if (!any) PyErr_Clear();
+  if (!any || (any.dtype().kind() != 'i' && any.dtype().kind() != 'u'))  // a fraction would be cut off
+    throw py::type_error("nodes are whole numbers, or arrays of them");
+  const auto numbers = Numbers::ensure(any);
+  if (!numbers) throw py::error_already_set();
   std::vector<int> nodes;
   for (py::ssize_t i = 0; i < numbers.size(); ++i) {
     const std::int64_t node = numbers.data()[i];
