@@ -31,7 +31,7 @@ TEST(Library, EveryMaterialHasASource) {
     std::visit([](const auto& m) { EXPECT_GT(m.source.size(), 20u) << m.name; }, material);
 }
 
-/// Words of which `source` or a comment has one for a number of this key.
+/// Words for the numbers of each key; `source` or a comment contains one of them.
 const std::map<std::string, std::string> words_of_sources = {{"coefficients", "\\bK\\b|curve|modulus"},
                                                              {"shear_fraction", "\\bxi\\b"},
                                                              {"bending_fraction", "\\beps\\b|Bending"},

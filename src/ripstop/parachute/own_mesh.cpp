@@ -130,7 +130,7 @@ void OwnMesh::add_line(const std::vector<int>& nodes, const std::vector<double>&
 }
 
 void OwnMesh::add_tape(const std::vector<int>& nodes, const std::vector<double>& lengths) {
-  if (!materials_.tape) refuse("the case has no tape; name one in parachute.tape.material");
+  if (!materials_.tape) refuse("the case has no tape; name one in the case");
   builder_.add_tape(path(nodes, lengths), *materials_.tape, builder_.add_tape_law(*materials_.tape),
                     builder_.part("tape"));
 }

@@ -37,7 +37,7 @@ class OwnMesh {
   void add_line(const std::vector<int>& nodes, const std::vector<double>& lengths);
   /// Tape along nodes, likewise.
   void add_tape(const std::vector<int>& nodes, const std::vector<double>& lengths);
-  /// `node` follows its masters, none of which is tied; equal weights if there are none.
+  /// `node` follows its masters, which are not tied themselves; without weights all have the same.
   void tie(int node, const std::vector<int>& masters, const std::vector<double>& weights);
   void fix(const std::vector<int>& nodes);
   /// The edge of the mouth in order, for the skirt diameter and the length of the canopy.

@@ -129,7 +129,7 @@ std::string doubt(const Times& times, ClockForm form, const Column& column,
 }
 
 /// A later row whose time is earlier by more than a row out of order explains; nothing: there is none. Midnight
-/// without a date is a step of more than half a day.
+/// without a date is a step of more than 12 h.
 const Row* set_back(const Times& times, ClockForm form) {
   constexpr double out_of_order = 600;  // [s]
   for (std::size_t i = 1; i < times.size(); ++i) {
