@@ -18,7 +18,7 @@ struct PyFabric {
 };
 
 std::unique_ptr<PyFabric> fabric(const PyCase& given, std::optional<double> pressure,
-                                 const std::optional<Path>& out, const PyMesh* mesh) {
+                                 const std::optional<Path>& out, const OptionalMesh& mesh) {
   Listener listener(py::none{});
   const std::shared_ptr<const CanopyMesh> own = own_mesh(mesh, false);
   const py::gil_scoped_release release;

@@ -18,12 +18,12 @@
 
 namespace ripstop::python {
 
-std::shared_ptr<const CanopyMesh> own_mesh(const PyMesh* given, bool in_folder) {
+std::shared_ptr<const CanopyMesh> own_mesh(const OptionalMesh& given, bool in_folder) {
   if (!given) return nullptr;
   if (in_folder)
     throw Error(ExitCode::usage,
                 "mesh: a run folder has no mesh of your own and could not be resumed; leave out `out`");
-  return std::make_shared<const CanopyMesh>(given->own.mesh());
+  return std::make_shared<const CanopyMesh>(given->get().own.mesh());
 }
 
 void refuse_own_mesh(const PySteady& run) {

@@ -36,9 +36,10 @@ namespace ripstop::python {
 struct PyMesh {
   OwnMesh own;
 };
+using OptionalMesh = std::optional<std::reference_wrapper<const PyMesh>>;
 /// Throws Error(usage) for a mesh that cannot be computed, and for one whose run would be in a folder: its case file
 /// lacks the mesh.
-std::shared_ptr<const CanopyMesh> own_mesh(const PyMesh* given, bool in_folder);
+std::shared_ptr<const CanopyMesh> own_mesh(const OptionalMesh& given, bool in_folder);
 
 struct PySteady {
   PyCase made;

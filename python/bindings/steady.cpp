@@ -64,11 +64,11 @@ void compute(PySteady& run, SteadyListener& observer, int threads, bool fresh, c
 
 std::unique_ptr<PySteady> steady(const PyCase& given, Callback<SteadyIteration> progress, int threads,
                                  const std::optional<Path>& out, bool fresh,
-                                 const std::optional<SteadySource>& start, const PyMesh* mesh) {
+                                 const std::optional<SteadySource>& start, const OptionalMesh& mesh) {
   const std::shared_ptr<const CanopyMesh> own = own_mesh(mesh, out.has_value());
   auto run = std::make_unique<PySteady>();
   run->made = given;
-  run->own_mesh = mesh != nullptr;
+  run->own_mesh = mesh.has_value();
   if (out) run->folder = *out;
   Path warm_from;
   std::optional<WarmStart> warm;

@@ -106,7 +106,10 @@ TEST(Fastest, IsAbsentWhereTheLowerEndIsBelowTheSlowestDeployment) {
   ASSERT_TRUE(above.design().lowest && above.design().speed);
   LoadRequest there = request();
   there.speed = *above.design().lowest;
-  EXPECT_LE(run_load(flat_circular(), there).design_load * (1 + above.load_uncertainty), 1.4 * at_slowest);
+  for (const MethodLoad& m : run_load(flat_circular(), there).stages[0].methods)
+    if (m.method == infinite_mass_method) {
+      EXPECT_LE(m.load * (1 + above.load_uncertainty), 1.4 * at_slowest);
+    }
 }
 
 TEST(Hardware, NeedsExactlyOneStrengthAndItsStretchInFull) {
