@@ -11,6 +11,7 @@
 #include "number_option.h"
 #include "opening.h"
 #include "progress.h"
+#include "ripstop/core/claimed_folder.h"
 #include "ripstop/core/error.h"
 #include "ripstop/run/opening/damping.h"
 #include "ripstop/run/run_folder.h"
@@ -41,6 +42,9 @@ int calibrate(const CalibrateArguments& options) {
   const DampingTarget target = damping_target(resolved);
   const LoadSource source = load_source(resolved, options.opening.steady_run);
   const InflationProblem problem = opening_problem(resolved, source, threads_of(options.opening, resolved));
+  const fs::path folder =
+      options.out.empty() ? default_run_folder(options.opening.case_file, "damping") : options.out;
+  make_results_folder(folder);
   Progress progress;
   progress.line(fmt::format(
       "{}: measured peak {:.1f} N{}; pressure {:.2f} Pa ({}), {} nodes", resolved.title(), target.peak,
@@ -51,8 +55,6 @@ int calibrate(const CalibrateArguments& options) {
       run_damping(resolved, source, problem, options.search,
                   [&](const DampingTrial& trial) { progress.line(trial_text(trial)); });
   const DampingCalibration& found = result.found;
-  const fs::path folder =
-      options.out.empty() ? default_run_folder(options.opening.case_file, "damping") : options.out;
   write_damping(folder, result);
   if (options.json)
     fmt::print("{}", to_json(result));

@@ -47,6 +47,7 @@ void print_result(const FabricResult& r, const fs::path& folder) {
   row("projected / nominal", ratio);
   row("skirt diameter", fmt::format("{:.3f} m", r.size.skirt_diameter));
   print_stresses(r.max_line_tension, r.stress);
+  print_margins(r.margins);
   if (!folder.empty()) row("files", folder.string() + " (canopy.png, canopy.vtp, lines.vtp, result.json)");
 }
 
@@ -66,8 +67,7 @@ int run(const FabricArguments& options) {
     fmt::print("{}", to_json(r));
   else
     print_result(r, options.out);
-  print_mesh_warning(resolved);
-  print_material_warnings(resolved, r.stress.strain);
+  print_warnings(r.warnings);
   if (!r.converged) {
     throw Error(ExitCode::not_converged,
                 fmt::format("no equilibrium within {} steps: residual {:.1e}, tolerance {:.0e}", r.steps,

@@ -15,6 +15,7 @@
 #include "json_option.h"
 #include "number_option.h"
 #include "progress.h"
+#include "ripstop/core/claimed_folder.h"
 #include "table_options.h"
 
 namespace ripstop::cli {
@@ -92,6 +93,8 @@ int run(const FitArguments& options) {
   if (!options.columns.empty()) bench.columns = options.columns;
   if (!options.decimal.empty()) bench.decimal = table::parse_decimal(options.decimal);
   table::parse_columns(bench.columns);  // a wrong one ends here, before any record is read
+  const fs::path folder = options.out.empty() ? fs::path("runs") / bench.name : options.out;
+  make_results_folder(folder);
   ThreadTeam team(options.threads);
   Progress progress;
   const FitResult result =
@@ -102,7 +105,6 @@ int run(const FitArguments& options) {
   if (result.coupons)
     progress.line(fmt::format("virtual coupons: {} evaluations in {}", result.coupons->evaluations,
                               duration_text(result.coupons->seconds)));
-  const fs::path folder = options.out.empty() ? fs::path("runs") / bench.name : options.out;
   const fs::path file = write_fit(folder, result);
   if (options.json) {
     fmt::print("{}", to_json(result));

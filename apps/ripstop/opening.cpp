@@ -51,9 +51,7 @@ int threads_of(const OpeningOptions& options, const Settings& opening) {
 }
 
 LoadSource load_source(const Settings& opening, const std::filesystem::path& steady_run) {
-  if (steady_run.empty()) return load_source(opening);
-  const double drag = drag_for_opening(steady_run, opening);
-  return {fmt::format("steady run {}: {:.4g} N", steady_run.string(), drag), drag};
+  return steady_run.empty() ? load_source(opening) : steady_load(steady_run, opening);
 }
 
 }  // namespace ripstop::cli

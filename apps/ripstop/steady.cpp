@@ -165,8 +165,10 @@ int run(const SteadyArguments& options) {
     return status;
   }
   if (!result.converged)
-    fmt::print(stderr, "not converged within {} coupling iterations: {}\n", result.iterations,
-               fmt::join(unmet_criteria(result.last, resolved.coupling()), "; "));
+    fmt::print(stderr,
+               "not converged within {} coupling iterations: {}; repeat the command with a higher "
+               "coupling.max_iterations to continue the run\n",
+               result.iterations, fmt::join(unmet_criteria(result.last, resolved.coupling()), "; "));
   return status;
 }
 

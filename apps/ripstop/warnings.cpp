@@ -29,16 +29,8 @@ void print_deprecations(const std::vector<std::string>& deprecations) {
   print_warnings(deprecations);
 }
 
-void print_mesh_warning(const Settings& resolved) {
-  print_warnings(mesh_warnings(resolved));
-}
-
 void print_case_warnings(const Settings& resolved) {
   print_warnings(case_warnings(resolved));
-}
-
-void print_material_warnings(const Settings& resolved, double largest_cloth_strain) {
-  print_warnings(strain_warnings(resolved, largest_cloth_strain));
 }
 
 }  // namespace ripstop::cli

@@ -19,14 +19,7 @@ int print_result_warnings(const std::optional<std::vector<std::string>>& warning
 /// Reports deprecated keys of a case on standard error.
 void print_deprecations(const std::vector<std::string>& deprecations);
 
-/// Warns on standard error when the mesh is too coarse for the size of the inflated canopy.
-void print_mesh_warning(const Settings& resolved);
-
 /// Warns on standard error of doubts about a valid case: mesh, grid, porosity.
 void print_case_warnings(const Settings& resolved);
-
-/// Repeats on standard error the doubts of the fits of the case's materials, and warns when the cloth of the
-/// canopy was strained beyond its tests.
-void print_material_warnings(const Settings& resolved, double largest_cloth_strain);
 
 }  // namespace ripstop::cli

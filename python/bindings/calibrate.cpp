@@ -5,6 +5,7 @@
 #include "members.h"
 #include "module.h"
 #include "opening.h"
+#include "ripstop/core/claimed_folder.h"
 #include "ripstop/run/opening/damping.h"
 
 namespace ripstop::python {
@@ -17,6 +18,7 @@ DampingResult calibrate(const PyCase& given, const OptionalSource& steady, std::
   const py::gil_scoped_release release;
   const Opening opening = opening_of(given.given, steady, pressure, threads);
   damping_target(opening.resolved);
+  if (out) make_results_folder(*out);
   const auto alive = [&] { listener.listen(); };
   DampingResult result = run_damping(
       opening.resolved, opening.source,

@@ -1,6 +1,11 @@
 // Error and InputError as exceptions with the text that the program prints.
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <map>
+#include <regex>
+#include <string>
+
 #include "members.h"
 #include "module.h"
 #include "ripstop/case/quantity_keys.h"
@@ -18,8 +23,37 @@ py::handle make_exception(py::module_& module, const char* name, py::handle base
   return type;
 }
 
+/// The argument of the functions that does the same as an option of the program.
+std::string argument_of(std::string option) {
+  static const std::map<std::string, std::string> others = {
+      {"fresh", "fresh=True"},     {"verify", "verify=True"},
+      {"fly", "fly=True"},         {"pressure", "pressure_pa"},
+      {"speed", "speed_m_s"},      {"height", "height_m"},
+      {"mass", "payload_mass_kg"}, {"measured-load", "measured_load_n"}};
+  const auto other = others.find(option);
+  if (other != others.end()) return other->second;
+  std::replace(option.begin(), option.end(), '-', '_');
+  return option;
+}
+
+/// A message with options as arguments: "--out" is `out`. Commands such as "ripstop steady CASE --out DIR" remain.
+std::string in_python(const std::string& message) {
+  static const std::regex parts(R"((ripstop [a-z-]+[^;,]*)|(^|[^\w-])--([a-z][a-z-]*[a-z])( [A-Z]{2,}\b)?)");
+  constexpr std::size_t longest = 10000;  // the search is recursive
+  if (message.size() > longest) return message;
+  std::string text;
+  auto from = message.begin();
+  for (std::sregex_iterator i(message.begin(), message.end(), parts), end; i != end; ++i) {
+    const std::smatch& found = *i;
+    text.append(from, found[0].first);
+    text += found[1].matched ? found[1].str() : found[2].str() + argument_of(found[3]);
+    from = found[0].second;
+  }
+  return text.append(from, message.end());
+}
+
 void raise(py::handle type, const Error& error, const py::list& problems) {
-  py::object exception = type(message_of(error));
+  py::object exception = type(in_python(message_of(error)));
   exception.attr("exit_code") = static_cast<int>(error.code());
   if (!problems.empty()) exception.attr("problems") = problems;
   PyErr_SetObject(type.ptr(), exception.ptr());

@@ -21,13 +21,15 @@ struct PyFabric {
 };
 
 std::unique_ptr<PyFabric> fabric(const PyCase& given, std::optional<double> pressure,
-                                 const std::optional<Path>& out) {
+                                 const std::optional<Path>& out, const OptionalMesh& mesh) {
   Listener listener(py::none{});
+  const std::shared_ptr<const CanopyMesh> own = own_mesh(mesh, false);
   const py::gil_scoped_release release;
   if (out) make_results_folder(*out);
   auto made = std::make_unique<PyFabric>();
   made->made = given;
-  made->solution = run_fabric(given.settings(), pressure, [&](const RelaxProgress&) { listener.listen(); });
+  made->solution = run_fabric(
+      given.settings(), pressure, [&](const RelaxProgress&) { listener.listen(); }, own.get());
   made->cells = cells_of(made->solution.mesh);
   if (out) write_fabric(*out, made->solution);
   return made;
@@ -61,10 +63,11 @@ void add_fabric(py::module_& module) {
       "stress", [](const py::object& self) { return table_of(fabric_of(self).solution.stress, self); },
       "Of every cell of cloth: columns in [N/m], max_strain without unit.");
   module.def("fabric", &fabric, py::arg("case"), py::kw_only(), py::arg("pressure_pa") = py::none(),
-             py::arg("out") = py::none(),
+             py::arg("out") = py::none(), py::arg("mesh") = py::none(),
              "Computes the shape under a uniform pressure, without a flow: ripstop fabric.\n\n"
              "pressure_pa: None: the dynamic pressure of the case.\n"
-             "out: a folder for result.json, a picture and files for ParaView. None: nothing is written.\n\n"
+             "out: a folder for result.json, a picture and files for ParaView. None: nothing is written.\n"
+             "mesh: a Mesh in place of the canopy of the case.\n\n"
              "A result that is not converged is also returned: check `converged`.");
 }
 

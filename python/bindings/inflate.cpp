@@ -129,12 +129,11 @@ Opening opening_of(const Case& given, const OptionalSource& steady, std::optiona
   if (!steady) {
     opening.source = load_source(opening.resolved);
   } else if (const Path* folder = std::get_if<Path>(&*steady)) {
-    const double drag = drag_for_opening(*folder, opening.resolved);
-    opening.source = {fmt::format("steady run {}: {:.4g} N", folder->string(), drag), drag};
+    opening.source = steady_load(*folder, opening.resolved);
   } else {
     const PySteady& run = std::get<1>(*steady);
-    const double drag = drag_for_opening(run.made.settings(), run.result, "the steady run", opening.resolved);
-    opening.source = {fmt::format("steady run: {:.4g} N", drag), drag};
+    refuse_own_mesh(run);
+    opening.source = steady_load(run.made.settings(), run.result, "steady run", opening.resolved);
   }
   return opening;
 }

@@ -61,6 +61,7 @@ PYBIND11_MODULE(_ripstop, module) {
   add_errors(module);
   add_case(module);
   add_check(module);
+  add_mesh(module);
   add_steady(module);
   add_stability(module);
   add_inflate(module);

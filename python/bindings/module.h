@@ -29,6 +29,8 @@ void add_size(py::module_& module);
 void add_load(py::module_& module);
 void add_recovery(py::module_& module);
 void add_flight(py::module_& module);
+/// Before the functions that take one.
+void add_mesh(py::module_& module);
 void add_fabric(py::module_& module);
 void add_sweep(py::module_& module);
 void add_report(py::module_& module);

@@ -12,6 +12,7 @@
 #include "module.h"
 #include "ripstop/cloth/cloth.h"
 #include "ripstop/parachute/canopy_mesh.h"
+#include "ripstop/parachute/own_mesh.h"
 #include "ripstop/run/opening/inflation.h"
 #include "ripstop/run/steady/finished_steady.h"
 #include "ripstop/run/steady/steady.h"
@@ -32,6 +33,15 @@ void each_member(T& s, Visit&& visit) {
 
 namespace ripstop::python {
 
+/// A canopy of the user's own (parachute/own_mesh.h).
+struct PyMesh {
+  OwnMesh own;
+};
+using OptionalMesh = std::optional<std::reference_wrapper<const PyMesh>>;
+/// Throws Error(usage) for a mesh that cannot be computed, and for one whose run would be in a folder: its case file
+/// lacks the mesh.
+std::shared_ptr<const CanopyMesh> own_mesh(const OptionalMesh& given, bool in_folder);
+
 struct PySteady {
   PyCase made;
   SteadyResult result;
@@ -40,7 +50,8 @@ struct PySteady {
   std::vector<CellStress> stress;  // likewise
   std::vector<Cell> cells;
   std::string engine;
-  Path folder;  // empty: in memory only
+  Path folder;            // empty: in memory only
+  bool own_mesh = false;  // of a mesh of the user's own
 };
 
 struct PyInflation {
@@ -56,7 +67,9 @@ struct PyInflation {
 
 /// A steady run: in memory, or the folder of one.
 using SteadySource = std::variant<Path, std::reference_wrapper<const PySteady>>;
-/// Throws as finished_steady().
+/// Throws Error(usage) for a run of a mesh of the user's own: mass and sizes of its case are not those of its canopy.
+void refuse_own_mesh(const PySteady& run);
+/// Throws as finished_steady() and refuse_own_mesh().
 FinishedSteady finished(const SteadySource& source);
 
 /// Corners of every cell as rows of node numbers; the first is -1 where there is no cloth.

@@ -45,10 +45,11 @@ class SteadyListener : public SteadyObserver {
   const std::optional<WarmStart>& start_;
 };
 
-void compute(PySteady& run, SteadyListener& observer, int threads, bool fresh, const Path& warm_from) {
+void compute(PySteady& run, SteadyListener& observer, int threads, bool fresh, const Path& warm_from,
+             const std::shared_ptr<const CanopyMesh>& mesh) {
   const Settings resolved = run.made.settings();
   if (run.folder.empty()) {
-    SteadySolution solution = run_steady(resolved, observer, {threads, {}, {}});
+    SteadySolution solution = run_steady(resolved, observer, {threads, {}, {}, mesh});
     run.result = std::move(solution.result);
     run.state = std::move(solution.state);
     run.flow = std::move(solution.flow);
@@ -59,14 +60,16 @@ void compute(PySteady& run, SteadyListener& observer, int threads, bool fresh, c
     if (done.already_finished) run.state = final_state(run.folder);
     run.result.last = run.state.iterations.back();
   }
-  run.cells = cells_of(parachute_mesh(resolved));
+  run.cells = cells_of(parachute_mesh(resolved, mesh.get()));
 }
 
 std::unique_ptr<PySteady> steady(const PyCase& given, Callback<SteadyIteration> progress, int threads,
                                  const std::optional<Path>& out, bool fresh,
-                                 const std::optional<SteadySource>& start) {
+                                 const std::optional<SteadySource>& start, const OptionalMesh& mesh) {
+  const std::shared_ptr<const CanopyMesh> own = own_mesh(mesh, out.has_value());
   auto run = std::make_unique<PySteady>();
   run->made = given;
+  run->own_mesh = mesh.has_value();
   if (out) run->folder = *out;
   Path warm_from;
   std::optional<WarmStart> warm;
@@ -84,7 +87,7 @@ std::unique_ptr<PySteady> steady(const PyCase& given, Callback<SteadyIteration> 
   Listener listener(std::move(progress));
   SteadyListener observer(listener, *run, warm);
   const py::gil_scoped_release release;
-  compute(*run, observer, threads, fresh, out ? warm_from : Path());
+  compute(*run, observer, threads, fresh, out ? warm_from : Path(), own);
   return run;
 }
 
@@ -160,6 +163,7 @@ void add_arrays(py::class_<PySteady>& type) {
 FinishedSteady finished(const SteadySource& source) {
   if (const Path* folder = std::get_if<Path>(&source)) return finished_steady(*folder);
   const PySteady& run = std::get<1>(source);
+  refuse_own_mesh(run);
   FinishedSteady done = finished_steady(run.made.settings(), run.result);
   done.folder = run.folder;
   return done;
@@ -203,14 +207,16 @@ void add_steady(py::module_& module) {
       "Exceeded quality limits, negative margins and other warnings.");
   module.def("steady", &steady, py::arg("case"), py::kw_only(), py::arg("progress") = py::none(),
              py::arg("threads") = 0, py::arg("out") = py::none(), py::arg("fresh") = false,
-             py::arg("start") = py::none(),
+             py::arg("start") = py::none(), py::arg("mesh") = py::none(),
              "Computes inflated shape, drag and loads in a steady flow: ripstop steady.\n\nprogress: called "
              "with a SteadyIteration after every coupling iteration; an exception in it stops the\n  "
              "run.\nthreads: number of threads; 0: coupling.threads of the case.\nout: run folder. A "
              "finished run of this case is read from it, an interrupted run resumes. None: no\n  "
              "files.\nfresh: replace the run in the folder.\nstart: finished run or its folder whose shape "
              "and pressure are the "
-             "initial state; ignored for\n  another mesh. None: undeformed canopy.\n\nA result that is not "
+             "initial state; ignored for\n  another mesh. None: undeformed canopy.\nmesh: a Mesh in place of "
+             "the canopy of the case; "
+             "coefficients refer to the area of its cloth. Without\n  `out`.\n\nA result that is not "
              "converged is also "
              "returned: check `converged`. Forces are in [N], lengths in [m],\nspeeds in [m/s].");
 }

@@ -187,6 +187,25 @@ TEST_F(Inputs, OutputThatCouldNotBeWrittenIsNoSuccess) {
   }
 }
 
+// Every command that computes for longer than a moment; each would take a minute or more.
+TEST_F(Inputs, AFolderThatCannotBeMadeIsReportedBeforeTheComputation) {
+  const std::string flat = examples + "flat-circular/case.toml", none = "/proc/nowhere/run";
+  for (std::vector<std::string> command : std::vector<std::vector<std::string>>{
+           {"steady", flat},
+           {"sweep", flat, "--speeds", "10,20"},
+           {"compare", flat, "--linear"},
+           {"inflate", flat, "--pressure", "300"},
+           {"fly", flat, "--mass", "2"},
+           {"stability", flat},
+           {"fabric", flat},
+           {"coupon", "f-111"},
+           {"fit", examples + "fit-ripstop/bench.toml"},
+           {"calibrate", "damping", flat, "--pressure", "300", "--set", "inflation.measured_peak_n=1000"}}) {
+    command.insert(command.end(), {"--out", none});
+    refused(command, 7, "cannot create folder " + none);
+  }
+}
+
 TEST_F(Inputs, APipeInPlaceOfAFileDoesNotBlock) {
   const std::string pipe = in("pipe.toml");
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);

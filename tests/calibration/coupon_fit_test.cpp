@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <random>
 #include <set>
@@ -96,6 +97,21 @@ TEST_F(CouponFitting, CleanRecordsGiveXiBack) {
   // Two samples are the fewest that leave an interval.
   EXPECT_LT(fit.shear_low, fit.fabric.shear_fraction);
   EXPECT_GT(fit.shear_high, fit.fabric.shear_fraction);
+}
+
+TEST_F(CouponFitting, ASearchThatEndsBeforeItConvergesHasAWarning) {
+  const Campaign campaign(1, *bias, 2, 0, 0);
+  CouponFitOptions quick;
+  quick.final_cells = 6;
+  const auto unfinished = [&] {
+    const CouponFit fit = fit_coupons(fit_material(campaign.bench), campaign.bench, quick, team);
+    return std::any_of(fit.warnings.begin(), fit.warnings.end(), [](const std::string& text) {
+      return text.find("was not converged after") != std::string::npos;
+    });
+  };
+  EXPECT_FALSE(unfinished());
+  quick.most_evaluations = 3;
+  EXPECT_TRUE(unfinished());
 }
 
 // Yarns that pull two percent more move xi as far as a bias curve of two percent less.

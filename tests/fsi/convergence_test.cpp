@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace ripstop {
 namespace {
 
@@ -29,6 +31,8 @@ TEST(UnmetCriteria, ListsOnlyUnmetCriteria) {
   only(now, "the shape changes by 0.002 m (limit 0.001 m)");
   now = converged(), now.drag_change = 0.0067;
   only(now, "the drag changes by 0.67 % (limit 0.1 %)");
+  now = converged(), now.drag_change = std::numeric_limits<double>::infinity();
+  only(now, "the drag is known from one iteration only");
   now = converged(), now.regularisation_share = 0.05;
   only(now, "by 5 % of the load (limit 2 %)");
   now = converged(), now.nodal_load = 90;

@@ -364,5 +364,12 @@ TEST(UniformPressure, TheEquilibriumCarriesTheDragThatWasAskedFor) {
   EXPECT_LT(found.axial_area, 0.785);
 }
 
+TEST(UniformPressure, ALoadWithoutEquilibriumIsRefused) {
+  ThreadTeam team(1);
+  const CanopyMesh mesh = small_canopy(600);
+  EXPECT_THROW(pressure_for(1e12, mesh, false, team), Error);
+  EXPECT_THROW(pressure_for(0, mesh, false, team), Error);
+}
+
 }  // namespace
 }  // namespace ripstop

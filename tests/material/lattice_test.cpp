@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "../f111_curve.h"
+#include "../refusal.h"
 #include "ripstop/core/error.h"
 
 namespace ripstop {
@@ -260,6 +261,13 @@ TEST(Lattice, EverySpringOfAClothThatBucklesDoes) {
 TEST(Lattice, ImpossibleClothIsRefused) {
   EXPECT_THROW(lattice_laws(f111_curve, 0.6, 0.5, 1, 0.1), Error);
   EXPECT_THROW(lattice_laws({30006, -200000}, 0.2, 0.01, 1, 0.33), Error);
+}
+
+// Nearly all of the load would be that of the diagonals.
+TEST(Lattice, ACurveThatNoLatticeFollowsIsRefused) {
+  EXPECT_NE(refusal_of([] { lattice_laws(f111_curve, 0.999, 0, 1, 0.33); }, ExitCode::bad_data)
+                .find("no lattice reproduces the curve"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -2,7 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <map>
+#include <regex>
+#include <sstream>
 
 #include "ripstop/core/file.h"
 #include "ripstop/core/toml/problem.h"
@@ -24,6 +29,48 @@ TEST(Library, EveryMaterialHasASource) {
   EXPECT_GE(everything().size(), 20u);
   for (const Material& material : everything())
     std::visit([](const auto& m) { EXPECT_GT(m.source.size(), 20u) << m.name; }, material);
+}
+
+/// Words for the numbers of each key; `source` or a comment contains one of them.
+const std::map<std::string, std::string> words_of_sources = {{"coefficients", "\\bK\\b|curve|modulus"},
+                                                             {"shear_fraction", "\\bxi\\b"},
+                                                             {"bending_fraction", "\\beps\\b|Bending"},
+                                                             {"compression", "compression|slack"},
+                                                             {"areal_density", "weight|mass"},
+                                                             {"linear_density", "linear density|mass|pound"},
+                                                             {"thickness", "thickness"},
+                                                             {"break_load", "strength|break|lbf"},
+                                                             {"tested_strain", "strain|elongation"},
+                                                             {"width", "width"},
+                                                             {"pressure_drop", "permeability|CFM"},
+                                                             {"darcy", "Darcy"},
+                                                             {"forchheimer", "Forchheimer"}};
+
+TEST(Library, EveryNumberHasASourceOrIsAssumed) {
+  int numbers = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "materials")) {
+    if (entry.path().extension() != ".toml") continue;
+    std::string explained;
+    std::vector<std::string> bare;  // keys of numbers without a comment of their own
+    std::istringstream lines(read_file(entry.path()));
+    std::smatch key;
+    for (std::string line; std::getline(lines, line);) {
+      const std::size_t comment = line.find('#');
+      if (comment != std::string::npos || line.starts_with("source")) explained += line + "\n";
+      if (!std::regex_search(line, key, std::regex(R"(^\w+ = [\[\d-])"))) continue;
+      ++numbers;
+      if (comment == std::string::npos) bare.push_back(key[0]);
+    }
+    for (const std::string& name : bare) {
+      const auto group = std::find_if(words_of_sources.begin(), words_of_sources.end(), [&](const auto& one) {
+        return name.find(one.first) != std::string::npos;
+      });
+      ASSERT_NE(group, words_of_sources.end()) << name;
+      EXPECT_TRUE(std::regex_search(explained, std::regex(group->second))) << entry.path() << " " << name;
+    }
+  }
+  EXPECT_GT(numbers, 150);
 }
 
 TEST(Library, AMaterialFileThatCannotBeClothIsRefused) {

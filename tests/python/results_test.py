@@ -130,12 +130,16 @@ class Cases(unittest.TestCase):
 
 
 class Errors(unittest.TestCase):
-    def both(self, error, call, *arguments, option="", word=""):
-        """The exception of a call and the program's end state the same, with `word` in place of the program's `option`."""
+    def both(self, error, call, *arguments, words=()):
+        """The exception of a call and the program's end state the same, with arguments in place of the program's options."""
         with self.assertRaises(error) as caught:
             call()
         status, _, text = small.program(*arguments)
-        self.assertEqual(f"ripstop: {caught.exception}\n", text.replace(option, word) if option else text)
+        for option, argument in dict(words).items():
+            self.assertIn(option, text)
+            text = text.replace(option, argument)
+        self.assertEqual(f"ripstop: {caught.exception}\n", text)
+        self.assertNotRegex(str(caught.exception).split("ripstop ")[0], "--[a-z]")
         self.assertEqual(caught.exception.exit_code, status)
         return caught.exception
 
@@ -153,7 +157,7 @@ class Errors(unittest.TestCase):
                                  ("flow.cells", [1, 2], "[1, 2]"), ("flow.engine", "openfaom", "openfaom")]:
             with self.subTest(key):
                 self.both(ripstop.InputError, lambda: ripstop.read_case(small.STRATOS, set={key: value}),
-                          "check", small.STRATOS, "--set", f"{key}={text}", option="--set", word="set")
+                          "check", small.STRATOS, "--set", f"{key}={text}", words={"--set": "set"})
 
     def test_an_old_key_is_read_with_a_warning_that_names_the_new_one(self):
         with self.assertWarnsRegex(DeprecationWarning, "write materials.f-111.darcy_1_m2"):
@@ -171,7 +175,19 @@ class Errors(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             file = pathlib.Path(folder, "case.toml")
             file.write_text(small.case().to_toml())
-            self.both(ripstop.Error, lambda: ripstop.inflate(small.case()), "inflate", file, "--out", pathlib.Path(folder, "run"))
+            self.both(ripstop.Error, lambda: ripstop.inflate(small.case()), "inflate", file, "--out", pathlib.Path(folder, "run"),
+                      words={"--pressure": "pressure_pa", "--steady RUN": "steady"})
+
+    def test_a_folder_of_other_inputs_is_refused_with_the_arguments_of_the_function(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file, run = pathlib.Path(folder, "case.toml"), pathlib.Path(folder, "run")
+            file.write_text(small.case(coupling__max_iterations=1).to_toml())
+            other = small.case(coupling__max_iterations=1, flow__speed_m_s=21)
+            ripstop.steady(other, out=run)
+            case = ripstop.read_case(file)
+            self.both(ripstop.Error, lambda: ripstop.steady(case, out=run), "steady", file, "--out", run,
+                      words={"--out": "out", "--fresh": "fresh=True"})
+            self.both(ripstop.Error, lambda: ripstop.size(1e-3, 0.1), "size", "--mass", 1e-3, "--descent-rate", 0.1, "--out", file, "--force")
 
     def test_angles_of_attack_that_do_not_rise(self):
         case = ripstop.Case.read(small.STRATOS)

@@ -320,5 +320,71 @@ class Engines(unittest.TestCase):
             ripstop.steady(small.case(flow__engine="python", flow__porosity_model="paper"))
 
 
+class OwnMeshes(unittest.TestCase):
+    """A canopy that is put together in Python."""
+
+    def test_the_mesh_of_the_case_has_the_numbers_of_the_case(self):
+        case = small.case(coupling__max_iterations=2)
+        mesh = ripstop.Mesh.of(case)
+        plain, own = ripstop.steady(case), ripstop.steady(case, mesh=mesh)
+        self.assertEqual(own.drag_n, plain.drag_n)
+        numpy.testing.assert_array_equal(own.shape, plain.shape)
+        numpy.testing.assert_array_equal(own.cells, plain.cells)
+        self.assertEqual(own.reference_area_m2, mesh.cloth_area_m2)  # without that of the vent
+        self.assertLess(own.reference_area_m2, plain.reference_area_m2)
+        self.assertIsNone(own.known_drag_coefficient)
+        self.assertEqual(ripstop.fabric(case, pressure_pa=100, mesh=mesh).line_tension_n, ripstop.fabric(case, pressure_pa=100).line_tension_n)
+
+    def test_a_square_on_four_lines_carries_its_pressure(self):
+        case = small.case()
+        mesh = ripstop.Mesh.empty(case)
+        x, y = numpy.meshgrid(numpy.linspace(-0.4, 0.4, 13), numpy.linspace(-0.4, 0.4, 13))
+        cloth = mesh.add_cloth("square", numpy.dstack([x, y, 0 * x]))  # columns along x, rows along y: the outer side is downstream
+        end, = mesh.add_nodes([[0, 0, -1]])
+        for corner in (cloth[0, 0], cloth[0, -1], cloth[-1, -1], cloth[-1, 0]):
+            mesh.add_line([end, corner], [1.2])
+        mesh.fix(end)
+        mesh.set_skirt(numpy.concatenate([cloth[0, :-1], cloth[:-1, -1], cloth[-1, :0:-1], cloth[:0:-1, 0]]))
+        self.assertEqual(mesh.nodes.shape, (170, 3))
+        self.assertAlmostEqual(mesh.cloth_area_m2, 0.64)
+        square = ripstop.fabric(case, pressure_pa=50, mesh=mesh)
+        self.assertTrue(square.converged)
+        self.assertAlmostEqual(square.line_tension_n / square.pressure_load_n, 1, delta=0.01)
+        self.assertGreater(square.max_line_tension_n, square.line_tension_n / 4)  # they are inclined
+        self.assertLess(square.projected_area_m2, 0.64)
+        run = ripstop.steady(small.case(coupling__max_iterations=1), mesh=mesh)
+        self.assertEqual(run.reference_area_m2, mesh.cloth_area_m2)
+        self.assertEqual(len(run.shape), 170)
+        self.assertGreater(run.drag_n, 0)
+        for use in (lambda: ripstop.descent(run, 2), lambda: ripstop.export(run), lambda: ripstop.load(small.case(), 2, 20, steady=run),
+                    lambda: ripstop.inflate(small.case(), steady=run)):
+            with self.assertRaisesRegex(ripstop.Error, "mesh of your own"):
+                use()
+
+    def test_input_that_no_mesh_can_have_is_refused(self):
+        mesh = ripstop.Mesh.empty(small.case())
+        with self.assertRaisesRegex(ripstop.Error, "no cloth"):
+            ripstop.fabric(small.case(), pressure_pa=10, mesh=mesh)
+        for points in (numpy.zeros((2, 2, 3)), numpy.full((2, 2, 3), numpy.nan)):
+            with self.assertRaises(ripstop.Error):
+                mesh.add_cloth("a", points)
+        for points in (numpy.zeros((2, 2)), numpy.zeros((2, 2, 2)), numpy.zeros(3)):
+            with self.assertRaises(ValueError):
+                mesh.add_cloth("a", points)
+        with self.assertRaisesRegex(ripstop.Error, "no node 7"):
+            mesh.fix(7)
+        for wrong in ("everything", 0.5, None, [0, 1.5]):
+            with self.subTest(wrong), self.assertRaises(TypeError):
+                mesh.fix(wrong)
+        for wrong in (-1, 2**40):
+            with self.assertRaisesRegex(ValueError, "no node"):
+                mesh.fix(wrong)
+        whole = ripstop.Mesh.of(small.case())
+        with tempfile.TemporaryDirectory() as folder, self.assertRaisesRegex(ripstop.Error, "leave out `out`"):
+            ripstop.steady(small.case(), mesh=whole, out=folder)
+        with self.assertRaisesRegex(ripstop.Error, "payload.mass_kg"):
+            ripstop.steady(small.case(payload__mass_kg=2, flow__speed_m_s=None), mesh=whole)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -92,6 +92,21 @@ TEST(RunFolder, AnOpeningTakesTheDragOfItsOwnParachuteOnly) {
   EXPECT_NE(refusal(given).find("result.json"), std::string::npos) << refusal(given);
 }
 
+// A payload descends at 7 m/s; its opening begins at the speed of the case.
+TEST(RunFolder, AnOpeningTakesTheDragAreaOfARunThatFoundItsSpeed) {
+  const Settings resolved = resolve(stratos());
+  SteadyResult result;
+  result.speed = 7, result.drag_area = 2, result.drag = 60, result.converged = true;
+  EXPECT_THROW(steady_load(resolved, result, "run", resolved), Error);  // without a payload: another speed
+  result.payload = HeldPayload{};
+  const LoadSource load = steady_load(resolved, result, "run", resolved);
+  const double speed = resolved.flow().speed_m_s;
+  EXPECT_NEAR(load.steady_drag.value(), resolved.flow().density_kg_m3 * speed * speed, 1e-9);
+  EXPECT_EQ(load.text.find("run: drag area of 2 m2 at 7 m/s, "), 0u) << load.text;
+  result.converged = false;
+  EXPECT_THROW(steady_load(resolved, result, "run", resolved), Error);
+}
+
 TEST(RunFolder, ItsInputsAreProgramEngineAndCase) {
   const TemporaryFolder root("run-folder");
   const Case given = stratos();

@@ -3,8 +3,9 @@
 
     python3 validation/drawings/measure.py --ripstop build/bin/ripstop
 
-The pieces of three designs are written as DXF in millimetres and inches, and as SVG. LibreCAD prints a DXF at scale 1 to PDF,
-whose lines are measured; Inkscape imports it by its own filter and measures the group of each layer. The width and height of
+The pieces of three designs are written as DXF in millimetres and inches, as SVG, and as PDF on sheets. LibreCAD prints a DXF at scale 1 to PDF,
+whose lines are measured; Inkscape imports it by its own filter and measures the group of each layer. It also measures the control square
+of a PDF and its outline, which every sheet contains as a whole. The width and height of
 the outlines must be those of the design: within 0.01 mm in Inkscape, and within 0.02 % in LibreCAD, whose print of a drawing in
 millimetres is 0.015 % too short at any resolution (in inches 0.002 %). Writes docs/tables/drawings.md; the exit code is 1 where one differs.
 """
@@ -22,6 +23,7 @@ sys.path.insert(0, str(ROOT / "validation"))
 import tables  # pylint: disable=wrong-import-position
 
 INKSCAPE_MM, LIBRECAD = 0.01, 2e-4  # absolute, of the length
+SQUARE_LINE, OUTLINE = 0.6 * 25.4 / 72, 0.3  # width of the lines in a PDF [mm]
 IMPORT = "/usr/share/inkscape/extensions/dxf_input.py"
 CASES = ["flat-circular", "stratos-iv", "cross"]
 ENVIRONMENT = {**os.environ, "QT_QPA_PLATFORM": "offscreen", "PATH": "/usr/bin:" + os.environ["PATH"]}
@@ -94,6 +96,14 @@ def by_inkscape_svg(file):
     return measured(svg, "measured")
 
 
+def by_inkscape_pdf(file, page, wanted, line):
+    """Width and height of the path of a page that is closest to the wanted ones, without half its line on either side [mm]."""
+    text = subprocess.run(["inkscape", f"--pdf-page={page}", "--query-all", str(file)], env=ENVIRONMENT, capture_output=True, text=True, check=True,
+                          timeout=120).stdout
+    sizes = [[float(number) * 25.4 / 96 - line for number in row.split(",")[3:5]] for row in text.splitlines() if row.startswith("path")]
+    return min(sizes, key=lambda size: max(abs(a - b) for a, b in zip(size, wanted)))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--ripstop", type=pathlib.Path, default=ROOT / "build/bin/ripstop")
@@ -103,23 +113,28 @@ def main():
         for case in CASES:
             for unit, factor in (("mm", 1), ("in", 25.4)):
                 folder = pathlib.Path(name, f"{case}-{unit}")
-                subprocess.run([options.ripstop, "pattern", ROOT / f"examples/{case}/case.toml", "--units", unit, "--out", folder], check=True,
-                               capture_output=True)
+                subprocess.run([options.ripstop, "pattern", ROOT / f"examples/{case}/case.toml", "--units", unit, "--paper", "a4", "--out", folder],
+                               check=True, capture_output=True)
                 for dxf in sorted(folder.glob("*.dxf")):  # before copies without text are in the same folder
                     drawn = polylines(dxf)
                     finished = [factor * length for length in extent(drawn["SEAM"][0])]
                     cut = [factor * length for length in extent(sum((line for lines in drawn.values() for line in lines), []))]
                     checks = [("LibreCAD, all lines", cut, by_librecad(dxf)), ("Inkscape, SEAM", finished, by_inkscape(dxf, "SEAM"))]
                     if unit == "mm":
-                        checks.append(("Inkscape, SVG", finished, by_inkscape_svg(dxf.with_suffix(".svg"))))
+                        pdf, square = dxf.with_name(f"{dxf.stem}-a4.pdf"), [100.0, 100.0]
+                        checks += [("Inkscape, SVG", finished, by_inkscape_svg(dxf.with_suffix(".svg"))),
+                                   ("Inkscape, PDF, control square", square, by_inkscape_pdf(pdf, 1, square, SQUARE_LINE)),
+                                   ("Inkscape, PDF, outline over all sheets", finished, by_inkscape_pdf(pdf, 2, finished, OUTLINE))]
                     for program, wanted, seen in checks:
                         error = max(abs(a - b) for a, b in zip(wanted, seen))
-                        wrong += error > (LIBRECAD * max(wanted) if program.startswith("LibreCAD") else INKSCAPE_MM)
+                        wrong += error > (LIBRECAD * max(wanted) if program.startswith("LibreCAD") else OUTLINE / 2 if program.endswith("sheets")
+                                          else INKSCAPE_MM)
                         rows.append([case, dxf.stem, unit, program, f"{wanted[0]:.2f} x {wanted[1]:.2f}", f"{seen[0]:.2f} x {seen[1]:.2f}", f"{error:.3f}"])
     versions = subprocess.run(["dpkg-query", "-W", "-f=${Package} ${Version}\n", "librecad", "inkscape"], capture_output=True, text=True,
                               check=False).stdout.splitlines()
     lines = [f"Width and height that other programs measure of the files of `ripstop pattern` ({'; '.join(versions)}). Inkscape agrees within "
-             f"{INKSCAPE_MM} mm. The print of LibreCAD agrees within {100 * LIBRECAD:g} %: for drawings in millimetres it is 0.015 % short itself.", "",
+             f"{INKSCAPE_MM} mm; in a PDF the mitres of inclined lines add up to half a line of {OUTLINE} mm. "
+             f"The print of LibreCAD agrees within {100 * LIBRECAD:g} %: for drawings in millimetres it is 0.015 % short itself.", "",
              *tables.table(["design", "piece", "unit of the file", "measured by", "wanted, mm", "measured, mm", "largest difference, mm"], rows)]
     tables.write("drawings", "Cutting patterns in other programs", "make test-drawings", tables.here(), lines)
     print("\n".join(lines))

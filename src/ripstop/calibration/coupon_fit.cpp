@@ -20,7 +20,6 @@ constexpr double highest_shear = 0.6, highest_bending = 0.2;
 constexpr double prior_weight = 1e-4;  // in units of 1 - R2
 constexpr double prior_width = 0.1;    // of eps
 constexpr double cannot = 10;          // misfit of a lattice that cannot be made
-constexpr int most_evaluations = 60;
 
 double value_at(const std::vector<double>& x, const std::vector<double>& y, double at) {
   const auto above = static_cast<std::size_t>(std::lower_bound(x.begin(), x.end(), at) - x.begin());
@@ -81,6 +80,7 @@ struct Search {
   int evaluations = 0;
   bool find_bending = false;
   std::string failure{};
+  bool converged = true;
 
   double misfit(double shear, double bending) {
     Fabric trial = fabric;
@@ -126,7 +126,7 @@ void minimise(Search& search, double shear_step) {
   nlopt_set_initial_step(optimiser.get(), step.data());
   const std::vector<double> close(count, 2e-5);
   nlopt_set_xtol_abs(optimiser.get(), close.data());
-  nlopt_set_maxeval(optimiser.get(), most_evaluations);
+  nlopt_set_maxeval(optimiser.get(), search.options->most_evaluations);
   double best = 0;
   const nlopt_result result = nlopt_optimize(optimiser.get(), x.data(), &best);
   if (best >= cannot)
@@ -137,6 +137,7 @@ void minimise(Search& search, double shear_step) {
     throw Error(
         ExitCode::not_converged,
         fmt::format("the optimisation of xi and eps failed with code {} of NLopt", static_cast<int>(result)));
+  search.converged = search.converged && result != NLOPT_MAXEVAL_REACHED;
   if (search.options->find_shear) search.fabric.shear_fraction = x[0];
   if (search.find_bending) search.fabric.bending_fraction = x[count - 1];
 }
@@ -215,6 +216,11 @@ void find_fractions(Search& search, const MaterialFit& fit, const Bench& bench, 
         search.find_bending ? ""
                             : fmt::format(": these tests do not determine eps, which remains {:.3g}",
                                           search.fabric.bending_fraction)));
+  if (!search.converged)
+    result.warnings.push_back(fmt::format(
+        "the search for xi and eps was not converged after {} coupons: xi = {:.3g}, eps = {:.3g} are "
+        "uncertain",
+        search.evaluations, search.fabric.shear_fraction, search.fabric.bending_fraction));
   if (search.fabric.shear_fraction > highest_shear - 1e-3 ||
       search.fabric.shear_fraction < lowest_shear + 1e-3)
     result.warnings.push_back(fmt::format(

@@ -20,6 +20,7 @@ struct CouponFitOptions {
   int final_cells = 12;             // of the coupons that are reported
   int final_points = 16;
   double start_shear = 0.2, start_bending = 0.01;
+  int most_evaluations = 60;  // of a search; one that ends so has a warning
 };
 
 /// A measured curve and that of the virtual coupon.

@@ -11,19 +11,27 @@
 #include "ripstop/flow/engines.h"
 #include "ripstop/flow/projections.h"
 #include "ripstop/flow/symmetry.h"
+#include "ripstop/parachute/own_mesh.h"
 
 namespace ripstop::inline cases {
 
-CanopyMesh parachute_mesh(const Settings& resolved) {
-  return parachute_mesh(resolved.parachute(), resolved);
+namespace {
+
+CanopyMesh in_flow(CanopyMesh mesh, const Settings& resolved) {
+  const double z = resolved.flow().canopy_position_m;
+  for (Vec3& p : mesh.start) p.z += z;
+  return mesh;
+}
+
+}  // namespace
+
+CanopyMesh parachute_mesh(const Settings& resolved, const CanopyMesh* own) {
+  return own ? in_flow(*own, resolved) : parachute_mesh(resolved.parachute(), resolved);
 }
 
 CanopyMesh parachute_mesh(const Design& design, const Settings& resolved) {
   require_cloth_memory(design);
-  CanopyMesh mesh = build_mesh(design, resolved.materials());
-  const double z = resolved.flow().canopy_position_m;
-  for (Vec3& p : mesh.start) p.z += z;
-  return mesh;
+  return in_flow(build_mesh(design, resolved.materials()), resolved);
 }
 
 FlowProblem flow_problem(const Settings& resolved) {
@@ -76,17 +84,22 @@ std::string why_full_box(const Settings& resolved, const SteadyProblem& problem)
     return "the \"paper\" model is compared with the full domain of its source";
   if (std::string reason = why_not_mirrored(problem.flow); !reason.empty()) return reason;
   if (mirror_images(problem.mesh)) return {};
-  if (const int gores = resolved.parachute().gores; gores % 2 != 0)
+  if (const int gores = resolved.parachute().gores; gores % 2 != 0 && !problem.own_mesh)
     return fmt::format("the number of gores is odd ({})", gores);
   return "the canopy is not its own mirror image in the planes x = 0 and y = 0";
 }
 
 }  // namespace
 
-SteadyProblem steady_problem(const Settings& resolved) {
+SteadyProblem steady_problem(const Settings& resolved, const CanopyMesh* own) {
   require_axial_stream(resolved.flow(), "a steady run");
-  SteadyProblem problem{parachute_mesh(resolved), flow_problem(resolved), nominal_area(resolved.parachute()),
-                        resolved.coupling(),      std::nullopt,           {}};
+  SteadyProblem problem{parachute_mesh(resolved, own),
+                        flow_problem(resolved),
+                        own ? cloth_area(*own) : nominal_area(resolved.parachute()),
+                        resolved.coupling(),
+                        std::nullopt,
+                        {}};
+  problem.own_mesh = own != nullptr;
   if (const FlowSettings& flow = resolved.flow(); flow.unsteady) {
     const WatchKeys& keys = flow.watch;
     problem.averaging_window = {keys.courant, keys.standard_error, keys.shortest, keys.longest,

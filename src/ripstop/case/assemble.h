@@ -10,13 +10,14 @@
 namespace ripstop::inline cases {
 
 /// The canopy's start shape with its skirt at flow.canopy_position_m, axis on x = y = 0, inlet at z = 0. With a
-/// `design` in place of the settings' own: of that, of the same materials.
-CanopyMesh parachute_mesh(const Settings& resolved);
+/// `design` in place of the settings' own: of that, of the same materials. With a mesh of the user's `own` (own_mesh.h):
+/// that one, its plane z = 0 at flow.canopy_position_m.
+CanopyMesh parachute_mesh(const Settings& resolved, const CanopyMesh* own = nullptr);
 CanopyMesh parachute_mesh(const Design& design, const Settings& resolved);
 /// Box, air and the canopy cloth's resistance; its cut cells are left to the coupling.
 FlowProblem flow_problem(const Settings& resolved);
 /// Throws Error(usage) if flow.angle_of_attack_deg is not 0; `what` does not support one.
 void require_axial_stream(const FlowSettings& flow, const char* what);
-SteadyProblem steady_problem(const Settings& resolved);
+SteadyProblem steady_problem(const Settings& resolved, const CanopyMesh* own = nullptr);
 
 }  // namespace ripstop::inline cases

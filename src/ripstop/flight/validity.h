@@ -20,7 +20,8 @@ const std::vector<ValidRange>& valid_ranges();
 inline constexpr const char *infinite_mass_model = "infinite-mass opening load",
                             *finite_mass_model = "finite-mass handbook methods",
                             *filling_model = "handbook filling distance", *flow_model = "incompressible flow",
-                            *scaled_drag_model = "drag area of a run at another speed";
+                            *scaled_drag_model = "drag area of a run at another speed",
+                            *permeability_model = "permeability of open cloth";
 
 struct ModelValue {
   const char* quantity;

@@ -28,8 +28,12 @@ std::vector<std::string> unmet_criteria(const SteadyIteration& last, const Coupl
   };
   if (!(last.shape_change < settings.shape_tolerance_m))
     add("the shape changes by {} m (limit {} m)", last.shape_change, settings.shape_tolerance_m);
-  if (!last.in_time && !(last.drag_change < settings.drag_tolerance))
-    add("the drag changes by {} % (limit {} %)", 100 * last.drag_change, 100 * settings.drag_tolerance);
+  if (!last.in_time && !(last.drag_change < settings.drag_tolerance)) {
+    if (std::isfinite(last.drag_change))
+      add("the drag changes by {} % (limit {} %)", 100 * last.drag_change, 100 * settings.drag_tolerance);
+    else
+      unmet.push_back("the drag is known from one iteration only");
+  }
   if (!(last.regularisation_share < regularisation_tolerance))
     add("slack cloth is restrained to the previous shape by {} % of the load (limit {} %)",
         100 * last.regularisation_share, 100 * regularisation_tolerance);

@@ -27,6 +27,7 @@ struct SteadyProblem {
   CouplingSettings settings;
   std::optional<Watch> averaging_window;  // once shape and drag have settled, the flow is averaged in time
   std::string full_box_because = {};      // why FlowProblem::quarter is not set; empty where it is
+  bool own_mesh = false;                  // `mesh` is that of the user, S0 its cloth as cut
 };
 
 enum class SteadyStage { cloth, flow, time };
@@ -59,6 +60,8 @@ class SteadySolver {
   const Flow& flow() const { return *flow_; }
   const Cloth& cloth() const { return *cloth_; }
   const CanopyMesh& mesh() const { return problem_.mesh; }
+  bool has_own_mesh() const { return problem_.own_mesh; }
+  double reference_area() const { return problem_.reference_area; }  // S0 [m2]
   /// Of the flow: the canopy, whose surface is that of the start, and rigid bodies.
   const std::vector<FlowBody>& bodies() const { return problem_.flow.bodies; }
   /// Why the whole box is solved, as a clause; empty: a quarter of it is.

@@ -136,6 +136,17 @@ void CanopyBuilder::add_lines(const Design& design, const PartMaterials& materia
   add_riser(design, materials.riser);
 }
 
+void CanopyBuilder::add_line_along(const Path& path, const Line& material) {
+  int suspension_lines = 0;
+  for (const LineRun& line : rigging.lines) suspension_lines += line.apex ? 0 : 1;
+  LineRun line{.radial = suspension_lines};
+  line.springs =
+      add_chain(path, material, add_laws(material), part(fmt::format("line {}", suspension_lines + 1)));
+  line.free_springs = static_cast<int>(line.springs.size());
+  line.axial_share = 1 - material.bending_fraction;
+  rigging.lines.push_back(std::move(line));
+}
+
 void CanopyBuilder::add_vent_lines(const PartMaterials& materials, const std::vector<Path>& sewn) {
   const ChainLaws laws = add_laws(materials.line);
   const std::size_t half = sewn.size() / 2;

@@ -44,6 +44,9 @@ class CanopyBuilder : public MeshBuilder {
   void add_lines(const Design& design, const PartMaterials& materials, const std::vector<Path>& sewn,
                  const ApexLines& apex = {});
 
+  /// The next suspension line, along all of `path`. No node becomes the confluence.
+  void add_line_along(const Path& path, const Line& material);
+
   /// Every line continues across the vent to the end of the opposite one: an even number of paths. A vent line
   /// is as long as the distance that it spans in the start shape.
   void add_vent_lines(const PartMaterials& materials, const std::vector<Path>& sewn);

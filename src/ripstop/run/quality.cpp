@@ -24,6 +24,8 @@ const std::vector<QualityLimit>& quality_limits() {
        "reduce the time step (inflation.step_fraction, inflation.courant) or use finer cells (flow.cells)"},
       {"momentum_residual", "residual of the momentum balance of the air", 0.01, 0.05, false, 100,
        " % of the peak load", "reduce the time step of the flow (inflation.courant)"},
+      {"mass_defect", "mass defect of the air after the start-up", 0.01, 0.05, false, 100,
+       " % of the mass flux of the stream", "reduce the time step of the flow (inflation.courant)"},
       {"flight_energy_residual", "residual of the energy balance of the flight", 0.01, 0.05, false, 100,
        " % of the potential energy lost", "reduce the time step (inflation.step_fraction, flight.courant)"},
       {"flight_momentum_residual", "residual of the momentum balance of the flight", 0.01, 0.05, false, 100,

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "ripstop/case/resolve.h"
 #include "ripstop/case/settings.h"
 #include "ripstop/core/build_info.h"
 #include "ripstop/core/error.h"
@@ -98,6 +99,21 @@ void refuse_without_records(const fs::path& folder) {
                   folder.string(), written_by, records, version()));
 }
 
+// The path of an iteration is independent of the limit.
+bool continues_run(const RunSettings& settings, const Settings& resolved, const std::string& solver) {
+  const fs::path& folder = settings.folder;
+  if (settings.fresh || !is_sealed(folder) || !fs::exists(folder / "checkpoint")) return false;
+  require_whole(folder);
+  const ordered_json result = ordered_json::parse(read_file(folder / "result.json"), nullptr, false);
+  if (!result.is_object() || !result.contains("coupling_iterations") || result.value("converged", true))
+    return false;
+  Case given = resolved.written();
+  const int before = read_case(folder / "case.toml").coupling.max_iterations;
+  if (before >= given.coupling.max_iterations) return false;
+  given.coupling.max_iterations = before;
+  return noted(folder, inputs) == inputs_hash(resolve(given), solver);
+}
+
 std::optional<std::string> RunFolder::finished() const {
   return finished_result(path());
 }
@@ -111,9 +127,12 @@ std::string RunFolder::end_with(const std::string& result_json) {
 
 std::unique_ptr<RunFolder> open_run_folder(const RunSettings& settings, const Settings& resolved,
                                            const std::string& solver, int threads) {
-  holds_run(settings, resolved, solver);  // a refused run leaves no trace
+  if (!continues_run(settings, resolved, solver))
+    holds_run(settings, resolved, solver);  // a refused run leaves no trace
   auto folder = std::make_unique<RunFolder>(settings);
-  const bool goes_on = holds_run(settings, resolved, solver);
+  const bool continues = continues_run(settings, resolved, solver);
+  const bool goes_on = continues || holds_run(settings, resolved, solver);
+  if (continues) folder->unseal();
   if (goes_on && is_sealed(settings.folder)) return folder;
   if (!goes_on) folder->clear();
   const std::string begun = noted(settings.folder, started).value_or(now_utc());

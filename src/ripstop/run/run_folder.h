@@ -39,6 +39,10 @@ bool holds_run(const RunSettings& settings, const Settings& resolved, const std:
 /// without them.
 void refuse_without_records(const std::filesystem::path& folder);
 
+/// Whether the folder contains a finished steady run of these inputs that has not converged within a lower
+/// coupling.max_iterations; it continues to the present one. Throws Error(bad_data) for a damaged one.
+bool continues_run(const RunSettings& settings, const Settings& resolved, const std::string& solver);
+
 /// The folder of one run while the run uses it.
 class RunFolder : public ClaimedFolder {
  public:

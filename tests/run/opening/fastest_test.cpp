@@ -1,6 +1,7 @@
 // The fastest safe deployment is the speed at which the weakest member is at its limit.
 #include "ripstop/run/opening/fastest.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -93,6 +94,25 @@ TEST(Fastest, IsSlowerWithAMarginToKeepAndAbsentWhereNothingIsAtItsLimit) {
   EXPECT_NE(refusal_of([&] { run_fastest(resolved, measured); }, ExitCode::usage).find("measured"),
             std::string::npos);
   EXPECT_THROW(run_fastest(resolved, request(), -0.1), Error);
+}
+
+// Found without its uncertainty, the load at the slowest speed is allowed; with it, it is not.
+TEST(Fastest, IsAbsentWhereTheLowerEndIsBelowTheSlowestDeployment) {
+  const auto with = [](double rated) {
+    return run_fastest(flat_circular({{"hardware.link.rated_load_n", fmt::format("{}", rated)}}), request());
+  };
+  const double at_slowest = with(0.01).design().load;
+  const FastestResult between = with(1.1 * at_slowest), above = with(1.4 * at_slowest);
+  EXPECT_TRUE(between.design().unsafe_at);
+  EXPECT_FALSE(between.design().lowest);
+  EXPECT_NE(between.warnings.at(0).find("uncertainty of 18 %"), std::string::npos) << between.warnings[0];
+  ASSERT_TRUE(above.design().lowest && above.design().speed);
+  LoadRequest there = request();
+  there.speed = *above.design().lowest;
+  for (const MethodLoad& m : run_load(flat_circular(), there).stages[0].methods)
+    if (m.method == infinite_mass_method) {
+      EXPECT_LE(m.load * (1 + above.load_uncertainty), 1.4 * at_slowest);
+    }
 }
 
 TEST(Hardware, NeedsExactlyOneStrengthAndItsStretchInFull) {

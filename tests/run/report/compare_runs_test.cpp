@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "tests/refusal.h"
@@ -29,6 +31,10 @@ TEST(CompareRuns, ShowsEveryNumberOfBothAndTheDifferenceOfTheLastToTheFirst) {
   EXPECT_TRUE(number("projected_diameter_m"));
   EXPECT_FALSE(number("wall_time_s"));
   EXPECT_FALSE(number("title"));
+  for (const ComparedNumber& n : c.numbers)  // rounding has no relative change
+    if (n.difference) {
+      EXPECT_GT(std::abs(n.values.front()), 1e-9) << n.key;
+    }
 }
 
 TEST(CompareRuns, RefusesOneRunAndFoldersWithoutOne) {

@@ -54,5 +54,21 @@ TEST(Fabric, IsTheSameWithAnyNumberOfThreads) {
   EXPECT_EQ(three.result.inputs_hash, one.result.inputs_hash);
 }
 
+TEST(Fabric, HasTheMarginOfItsWeakestMemberAndAWarningBelowZero) {
+  const FabricResult strong = run_fabric(canopy(), 240).result;
+  ASSERT_TRUE(strong.margins);
+  EXPECT_GT(*weakest(*strong.margins)->margin, 0);
+  EXPECT_EQ(strong.margins->members.front().load, std::max(strong.stress.warp, strong.stress.weft));
+  Case given = canopy().written();
+  Line line = suspension_line(given);
+  line.break_load_n = 1;
+  given.materials.insert_or_assign(line.name, line);
+  const FabricResult weak = run_fabric(resolve(given), 240).result;
+  EXPECT_EQ(weak.margins->weakest.find("line "), 0u) << weak.margins->weakest;
+  EXPECT_TRUE(std::any_of(weak.warnings.begin(), weak.warnings.end(), [](const std::string& text) {
+    return text.find("exceeds its allowable load") != std::string::npos;
+  }));
+}
+
 }  // namespace
 }  // namespace ripstop

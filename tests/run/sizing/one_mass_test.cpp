@@ -1,12 +1,21 @@
-// One parachute has one mass: in pattern, flight, summary, loads and export.
+// One parachute has one mass, one nominal area and one reference length: in pattern, flight, summary, loads and export.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "ripstop/case/assemble.h"
 #include "ripstop/case/payload.h"
 #include "ripstop/case/summary.h"
 #include "ripstop/flight/atmosphere.h"
+#include "ripstop/parachute/family.h"
+#include "ripstop/parachute/own_mesh.h"
+#include "ripstop/run/descent/export.h"
 #include "ripstop/run/opening/load.h"
 #include "ripstop/run/sizing/pattern.h"
 #include "ripstop/run/sizing/size.h"
+#include "ripstop/run/stability/stability.h"
 
 namespace ripstop {
 namespace {
@@ -25,18 +34,69 @@ void expect_one_mass(const Case& given, const std::string& name) {
   EXPECT_EQ(run_load(resolve(given), asked).parachute_mass, mass) << name;
 }
 
-TEST(OneMass, OfEveryExample) {
-  int examples = 0;
+/// S0 and D0 = (4 S0 / pi)^(1/2) of every user of them, and the cloth as cut and as meshed.
+void expect_one_reference(const Case& given, const std::string& name) {
+  const Settings resolved = resolve(given);
+  const double area = nominal_area(given.parachute), diameter = nominal_diameter(given.parachute);
+  EXPECT_NEAR(std::numbers::pi / 4 * diameter * diameter, area, 1e-12 * area) << name;
+  const PatternResult pattern = run_pattern(resolved, {}, packed_by_hand);
+  const CaseSummary summary = summarize(resolved);
+  const Reference turned = stability_reference(resolved);
+  LoadRequest asked;
+  asked.payload_mass = 2, asked.speed = 40, asked.drag_coefficient = 0.7, asked.opening_coefficient = 1.5;
+  const LoadResult load = run_load(resolved, asked);
+  const SteadyProblem flown = steady_problem(resolved);
+  SteadyResult steady;
+  steady.converged = true, steady.speed = 20, steady.drag_area = 1,
+  steady.reference_area = flown.reference_area;
+  const ExportedParachute sold = exported(finished_steady(resolved, steady));
+  for (const double other : {pattern.nominal_area, summary.nominal_area, turned.area, load.reference_area,
+                             flown.reference_area, sold.nominal_area})
+    EXPECT_EQ(other, area) << name;
+  for (const double other : {turned.diameter, load.nominal_diameter, sold.nominal_diameter})
+    EXPECT_EQ(other, diameter) << name;
+  double cut = 0;  // pieces as drawn, without their allowances
+  for (const Piece& piece : pattern.pattern.pieces)
+    cut += piece.count * (polygon_area(piece.outline) - std::abs(polygon_area(piece.opening)));
+  EXPECT_NEAR(cut / pattern.cloth_area, 1, 2e-3) << name;
+  EXPECT_EQ(summary.computed_area, pattern.cloth_area) << name;
+  EXPECT_NEAR(summary.cloth_area / cloth_area(flown.mesh), 1, 1e-9) << name;
+  EXPECT_NEAR(summary.cloth_area / pattern.cloth_area, 1, 0.02) << name;
+}
+
+template <class Look>
+void for_every_example(const Look& look) {
+  std::set<std::string> types;
   const auto folder = std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples";
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const auto file = entry.path() / "case.toml";
     if (!std::filesystem::exists(file)) continue;
     Overrides coarse;
     coarse.set.push_back({"parachute.mesh.cloth_nodes", "2000", ""});
-    expect_one_mass(read_case(file, coarse), entry.path().filename());
-    ++examples;
+    const Case given = read_case(file, coarse);
+    look(given, entry.path().filename());
+    types.insert(given.parachute.canopy.family().type);
   }
-  EXPECT_GE(examples, 10);
+  for (const CanopyFamily* family : families()) EXPECT_TRUE(types.contains(family->type)) << family->type;
+}
+
+TEST(OneMass, OfEveryExample) {
+  for_every_example(expect_one_mass);
+}
+
+TEST(OneReference, OfEveryFamily) {
+  for_every_example(expect_one_reference);
+}
+
+TEST(OneReference, OfASizedParachuteOfEveryFamily) {
+  for (const FamilyDrag& drag : family_drags()) {
+    SizeRequest asked;
+    asked.payload_mass = 2.4, asked.descent_rate = 5, asked.family = drag.family;
+    const SizeResult r = run_size(asked);
+    EXPECT_EQ(r.nominal_area, nominal_area(r.given.parachute)) << drag.family;
+    EXPECT_EQ(r.nominal_diameter, nominal_diameter(r.given.parachute)) << drag.family;
+    EXPECT_EQ(run_pattern(resolve(r.given), {}, 400).nominal_area, r.nominal_area) << drag.family;
+  }
 }
 
 // 7.6 g were printed, 14.7 g cut and packed.

@@ -6,6 +6,7 @@
 
 #include "ripstop/core/error.h"
 #include "ripstop/output/csv.h"
+#include "ripstop/run/steady/finished_steady.h"
 #include "tests/run/steady/finished_run.h"
 
 namespace ripstop {
@@ -76,6 +77,27 @@ TEST_F(InterruptedRun, DetectsChangesOfEarlierIterations) {
   write_file(shape, whole);
   fly_square_law(folder);
   EXPECT_TRUE(finished_result(folder));
+}
+
+TEST(ContinuedRun, HasTheNumbersOfOneThatWasAllowedAllIterations) {
+  const TemporaryFolder root("continued");
+  const auto with = [](const char* most) { return std::vector<Setting>{{"coupling.max_iterations", most}}; };
+  const SteadyResult whole = fly_square_law(root.path / "whole", with("40"));
+  ASSERT_TRUE(whole.converged);
+  ASSERT_GT(whole.iterations, 1);
+  EXPECT_FALSE(fly_square_law(root.path / "part", with("1")).converged);
+  EXPECT_THROW(
+      fly_square_law(root.path / "part", {{"coupling.max_iterations", "40"}, {"flow.speed_m_s", "21"}}),
+      Error);  // another run
+  EXPECT_EQ(fly_square_law(root.path / "part", with("1")).iterations, 1);
+  const SteadyResult continued = fly_square_law(root.path / "part", with("40"));
+  EXPECT_TRUE(continued.converged);
+  EXPECT_EQ(continued.drag, whole.drag);
+  EXPECT_EQ(continued.iterations, whole.iterations);
+  EXPECT_EQ(read_file(root.path / "part/canopy.stl"), read_file(root.path / "whole/canopy.stl"));
+  EXPECT_EQ(finished_steady(root.path / "part").result.drag, whole.drag);
+  // A run that has converged is complete.
+  EXPECT_THROW(fly_square_law(root.path / "part", with("50")), Error);
 }
 
 }  // namespace

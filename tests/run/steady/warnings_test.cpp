@@ -31,6 +31,28 @@ TEST(Warnings, ClothBeyondItsTestedStrainIsWarnedOfLinesAreNotByTheCloths) {
   EXPECT_EQ(warnings_of(resolve(given), 0.21).size(), case_warnings(resolve(given)).size() + beyond.size());
 }
 
+TEST(Warnings, TheAirIsOutsideItsRangesAtHighSpeedAndOnSmallSlowCanopies) {
+  const auto with = [](const char* speed, const char* cloth, std::vector<Setting> more = {}) {
+    Overrides overrides;
+    overrides.set = std::move(more);
+    overrides.set.insert(
+        overrides.set.end(),
+        {{"flow.speed_m_s", speed}, {"parachute.canopy_material", cloth}, {"flow.porosity_model", "sheet"}});
+    return air_warnings(resolve(read_case(
+        std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/flat-circular/case.toml", overrides)));
+  };
+  const auto only = [](const std::vector<std::string>& all, const char* words) {
+    ASSERT_EQ(all.size(), 1u) << words;
+    EXPECT_NE(all[0].find(words), std::string::npos) << all[0];
+  };
+  constexpr const char *open = "mil-c-7020-type-iii", *tight = "pia-c-44378-type-iv";
+  EXPECT_TRUE(with("50", open).empty());
+  only(with("70", open), "dynamic pressure of 2.94e+03 Pa is outside the range");
+  EXPECT_TRUE(with("70", tight).empty());
+  only(with("100", tight, {{"flow.temperature_k", "220"}}), "Mach number of 0.336");
+  only(with("1", tight, {{"parachute.nominal_diameter_m", "0.14"}}), "Reynolds number of");
+}
+
 TEST(Warnings, AMeshIsWarnedOfWithFewerNodesThanItsTypeNeeds) {
   Case given = warned_case();
   const int enough = experience(given.parachute).cloth_nodes;

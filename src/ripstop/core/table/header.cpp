@@ -132,6 +132,7 @@ struct Resolver {
       }
     };
     take(heading.unit, header_line, "the header");
+    take(heading.other_unit, header_line, "the header");
     take(unit_below, unit_line, "the row of units");
     if (unit.empty() && !heading.odd.empty() && read_heading(heading.odd).meanings.empty())
       unit = heading.odd;

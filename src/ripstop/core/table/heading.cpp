@@ -436,10 +436,14 @@ Heading read_heading(const std::string& text) {
   heading.name = heading.text;
   for (auto part = parts.rbegin(); part != parts.rend(); ++part) {
     if (!is_unit(part->inside) && clock_form(part->inside) == ClockForm::none) continue;
+    if (!heading.unit.empty()) {
+      const bool number = part->inside == "1" || part->inside == "-";
+      if (!number && part->inside != heading.unit) heading.other_unit = part->inside;
+      continue;
+    }
     heading.unit = part->inside;
     heading.name.replace(part->begin, part->end - part->begin, " ");
     heading.name = trimmed(heading.name);
-    break;
   }
   parts = bracketed(heading.name);
   if (heading.unit.empty() && parts.size() == 1) heading.odd = parts.front().inside;

@@ -39,6 +39,7 @@ struct Heading {
   std::string text;                // as in the file
   std::string name;                // without its unit
   std::string unit;                // empty: none that is known
+  std::string other_unit;          // a second unit in parentheses or brackets
   std::string odd;                 // in parentheses or brackets, and not a known unit
   std::vector<Quantity> meanings;  // by its words; the first that fits the unit counts
   bool weak = false;               // its words also mean other things: it counts only with a unit that fits

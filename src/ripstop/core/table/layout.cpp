@@ -61,10 +61,23 @@ class Reader {
         format_.wanted.empty())
       refuse_without_header();
     std::erase_if(layout_.blocks, [](const Block& block) { return block.rows.empty(); });
+    leave_out_results();
     return std::move(layout_);
   }
 
  private:
+  /// A single row below its own header, next to records of several rows, has the results of a test and no record.
+  void leave_out_results() {
+    constexpr std::size_t shortest_record = 3;
+    const auto is_record = [](const Block& block) { return block.rows.size() >= shortest_record; };
+    if (std::none_of(layout_.blocks.begin(), layout_.blocks.end(), is_record)) return;
+    std::erase_if(layout_.blocks, [&](const Block& block) {
+      if (block.rows.size() > 1) return false;
+      layout_.notes.push_back(fmt::format(
+          "the single row below the header in line {} is ignored: it is no record", block.header_line));
+      return true;
+    });
+  }
   Block& block() { return layout_.blocks.back(); }
 
   void start(Block next, std::size_t from, const Header& header) {

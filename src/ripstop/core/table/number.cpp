@@ -167,6 +167,23 @@ std::optional<int> afternoon(std::string_view& text) {
   return {};
 }
 
+/// Takes an offset from UTC, such as +02:00, off the end [s]; 0: there is none. Nothing: it is not an offset.
+std::optional<int> zone_of(std::string_view& text) {
+  const std::size_t at = text.find_first_of("+-");
+  if (at == std::string_view::npos) return 0;
+  std::string digits(text.substr(at + 1));
+  if (digits.size() == 5 && digits[2] == ':') digits.erase(2, 1);
+  if (digits.size() == 2) digits += "00";
+  const std::string_view both = digits;
+  if (both.size() != 4 || !only_digits(both)) return {};
+  const int hours = integer(both.substr(0, 2)).value_or(99), minutes = integer(both.substr(2)).value_or(99);
+  if (hours > 14 || minutes > 59) return {};
+  const int seconds = 3600 * hours + 60 * minutes, sign = text[at] == '-' ? -1 : 1;
+  text = text.substr(0, at);
+  while (text.ends_with(' ')) text.remove_suffix(1);
+  return sign * seconds;
+}
+
 }  // namespace
 
 NumberForm form_of(std::string_view text) {
@@ -214,6 +231,8 @@ std::optional<ClockTime> clock_of(std::string_view text) {
   }
   while (rest.starts_with(' ')) rest.remove_prefix(1);
   if (rest.ends_with('z')) rest.remove_suffix(1);
+  const std::optional<int> zone = time.has_day ? zone_of(rest) : 0;
+  if (!zone) return {};
   const std::optional<int> half = afternoon(rest);
   const std::vector<std::string_view> parts = parts_of(rest, ':');
   if (parts.size() < 2 || parts.size() > 3) return {};
@@ -236,7 +255,7 @@ std::optional<ClockTime> clock_of(std::string_view text) {
     }
     value += *part * (parts.size() == 3 && i == 0 ? 3600 : 60);
   }
-  time.seconds = value;
+  time.seconds = value - *zone;
   return time;
 }
 

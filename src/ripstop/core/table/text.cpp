@@ -121,6 +121,8 @@ Text decode(const std::string& bytes, const std::filesystem::path& file) {
            fmt::format("line {} has a character with the code 0: this is not a text file; export the "
                        "table as CSV",
                        std::count(text.utf8.begin(), text.utf8.begin() + static_cast<long>(at), '\n') + 1));
+  constexpr char end_of_file = '\x1a';  // of DOS
+  while (text.utf8.ends_with(end_of_file)) text.utf8.pop_back();
   unify_line_ends(text.utf8);
   return text;
 }

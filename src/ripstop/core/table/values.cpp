@@ -128,6 +128,20 @@ std::string doubt(const Times& times, ClockForm form, const Column& column,
   return "";
 }
 
+/// A later row whose time is earlier by more than a row out of order explains; nothing: there is none. Midnight
+/// without a date is a step of more than 12 h.
+const Row* set_back(const Times& times, ClockForm form) {
+  constexpr double out_of_order = 600;  // [s]
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    const ClockTime &before = times[i - 1].second, &now = times[i].second;
+    const double unit = now.parts == 2 && form == ClockForm::hours_minutes ? 60 : 1;
+    double back = unit * (before.seconds - now.seconds);
+    if (now.has_day) back += day * (before.day - now.day);
+    if (back > out_of_order && (now.has_day || back <= 0.5 * day)) return times[i].first;
+  }
+  return nullptr;
+}
+
 /// Seconds after the first time.
 std::vector<double> seconds_of(const Times& times, ClockForm form) {
   std::vector<double> seconds;
@@ -165,6 +179,11 @@ bool read_clock(const Block& block, Column& column, const std::filesystem::path&
                 "is not a clock time such as 10:15:03.5, unlike the rest of the column; correct it");
   else if (!times.empty())
     column.problem = doubt(times, form, column, file);
+  if (const Row* row = column.problem.empty() ? set_back(times, form) : nullptr)
+    column.problem =
+        message(file, *row, column,
+                "is earlier than the time above it: a clock of twelve hours needs AM and PM, and "
+                "a clock that was set back needs two files");
   if (!column.problem.empty()) return true;
   column.unit = "clock";
   column.values.assign(block.rows.size(), nothing);
@@ -243,6 +262,14 @@ void read_values(const Block& block, Column& column, char decimal, Decimal state
           file, *row, column,
           fmt::format("is not a finite number{}; correct the cell, or leave it empty",
                       groups ? fmt::format(" with a decimal {} and digits in groups of three", mark) : ""));
+      return;
+    }
+    constexpr double largest = 1e12;  // in SI units; no machine measures more
+    if (std::abs(*value * factor) > largest) {
+      column.problem =
+          message(file, *row, column,
+                  "is larger than any measured value: instruments write such numbers on overload; "
+                  "leave the cell empty");
       return;
     }
     column.values.push_back(*value * factor);

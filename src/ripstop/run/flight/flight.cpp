@@ -146,6 +146,7 @@ void take_quality(FlightResult& r, const Settings& resolved) {
                                {"cells_across", r.cells_across}});
   judgement.add(margin_warnings(r.margins));
   judgement.add(mesh_warnings(resolved));
+  judgement.add(air_warnings(resolved));
   judgement.add(strain_warnings(resolved, r.stress.strain));
   r.warnings = std::move(judgement.warnings);
   if (failed(r.ended_by)) {

@@ -56,7 +56,7 @@ MethodPeak peak_of(const LoadResult& r, const std::string& method) {
   return peak;
 }
 
-/// The largest speed from `low` up to the fastest deployment at which `keeps` is true; nothing: it is true at all of
+/// The largest speed from `low`, at which `keeps` is true, up to the fastest deployment at which `keeps` is true; nothing: it is true at all of
 /// them.
 template <class Keeps>
 std::optional<double> largest_speed(double low, Keeps&& keeps) {
@@ -79,7 +79,8 @@ SafeSpeed safe_speed(const Settings& resolved, const LoadsAtSpeed& loads, const 
   };
   SafeSpeed safe;
   safe.method = method;
-  if (*least(peak_of(loads.at(slowest), method).load).margin < r.margin) {
+  // The lower end is a claim too: with its load even the slowest deployment has to keep the margin.
+  if (*least((1 + r.load_uncertainty) * peak_of(loads.at(slowest), method).load).margin < r.margin) {
     safe.unsafe_at = slowest;
   } else {
     safe.speed = speed_with(1);
@@ -172,8 +173,9 @@ FastestResult run_fastest(const Settings& resolved, LoadRequest request, double 
   if (r.design().unsafe_at)
     r.warnings.push_back(
         fmt::format("no deployment is safe by the method {}: at {:.3g} m/s, about the rate of descent, the "
-                    "{} does not keep its margin; use stronger parts",
-                    r.design_method, slowest, r.design().member));
+                    "{} does not keep its margin with the uncertainty of {:.0f} % of the load; use stronger "
+                    "parts",
+                    r.design_method, slowest, r.design().member, 100 * r.load_uncertainty));
   return r;
 }
 

@@ -157,11 +157,15 @@ void take_quality(InflationResult& r, const Settings& resolved, const Opening& s
   if (solver.problem().settings.contact_pa > 0)
     values.insert(values.end(), {{"pierced_edges", r.pierced}, {"contact_depth", r.contact_depth}});
   if (solver.air()) {
-    double gap = 0;
-    for (const AirRow& row : history.air) gap = std::max(gap, std::abs(row.momentum_gap));
+    double gap = 0, defect = 0;
+    for (const AirRow& row : history.air) {
+      gap = std::max(gap, std::abs(row.momentum_gap));
+      if (row.time >= r.start_up_time.value_or(0)) defect = std::max(defect, row.mass_defect);
+    }
     r.momentum_residual = gap / r.peak_load, r.cells_across = cells_across(resolved);
-    values.insert(values.end(),
-                  {{"momentum_residual", *r.momentum_residual}, {"cells_across", *r.cells_across}});
+    values.insert(values.end(), {{"momentum_residual", *r.momentum_residual},
+                                 {"mass_defect", defect},
+                                 {"cells_across", *r.cells_across}});
     const double peak_time = r.smooth_peak_time.value_or(r.peak_time);
     if (r.start_up_time && !history.rows.empty() &&
         history.rows.back().time > start_ups_of_a_run * *r.start_up_time)
@@ -181,7 +185,7 @@ void take_quality(InflationResult& r, const Settings& resolved, const Opening& s
   if (const auto text = handbook_disagreement(r.smooth_peak.value_or(r.peak_load), distance, r.handbook))
     judgement.add({*text});
   judgement.add(mesh_warnings(resolved));
-  if (solver.air()) judgement.add(range_warnings(resolved));
+  if (solver.air()) judgement.add(air_warnings(resolved));
   judgement.add(strain_warnings(resolved, r.stress.strain));
   r.usable = judgement.usable;
   r.warnings = std::move(judgement.warnings);

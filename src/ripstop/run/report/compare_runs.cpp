@@ -43,7 +43,10 @@ ComparedNumber compared_number(const std::string& key, const std::vector<Json>& 
     number.values.push_back(known ? found->get<double>() : std::numeric_limits<double>::quiet_NaN());
   }
   const double first = number.values.front(), last = number.values.back();
-  if (std::isfinite(first) && std::isfinite(last) && first != 0) number.difference = last / first - 1;
+  // A quantity that is 0 but for rounding, or changes its sign, has no relative change.
+  constexpr double rounding = 1e-9;
+  if (std::isfinite(first) && std::isfinite(last) && std::abs(first) > rounding && first * last >= 0)
+    number.difference = last / first - 1;
   return number;
 }
 

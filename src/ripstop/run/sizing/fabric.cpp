@@ -14,8 +14,10 @@
 #include "ripstop/core/positive.h"
 #include "ripstop/output/picture.h"
 #include "ripstop/output/vtk.h"
+#include "ripstop/parachute/own_mesh.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/run_folder.h"
+#include "ripstop/run/steady/warnings.h"
 #include "ripstop/run/stress_arrays.h"
 
 namespace ripstop::inline run {
@@ -23,15 +25,16 @@ namespace {
 
 constexpr double highest_pressure = 1e6;  // as of inflation.pressure_pa [Pa]
 
-/// The result of `relaxation`. If it diverges, the stress p R / 2 of a sphere of the nominal radius is
+/// The result of `relaxation`. If it diverges, the stress p R / 2 of a sphere of the nominal `diameter` is
 /// compared with the strength of the cloth.
 template <class Relaxation>
-RelaxResult relaxed_under(const Settings& resolved, double pressure, const Relaxation& relaxation) {
+RelaxResult relaxed_under(const Settings& resolved, double pressure, double diameter,
+                          const Relaxation& relaxation) {
   try {
     return relaxation();
   } catch (const Error& error) {
     if (error.code() != ExitCode::diverged) throw;
-    const double stress = 0.25 * pressure * nominal_diameter(resolved.parachute());
+    const double stress = 0.25 * pressure * diameter;
     const double strength = resolved.materials().canopy.break_load_n_m;
     throw Error(
         error.code(),
@@ -56,21 +59,23 @@ double fabric_pressure(const Settings& resolved, std::optional<double> given) {
 }
 
 FabricSolution run_fabric(const Settings& resolved, std::optional<double> pressure,
-                          const std::function<void(const RelaxProgress&)>& report) {
+                          const std::function<void(const RelaxProgress&)>& report, const CanopyMesh* own) {
   RelaxWatch watch;
   if (report) watch = [&](const RelaxProgress& progress, const auto&) { report(progress); };
-  return run_watched_fabric(resolved, pressure, resolved.coupling().threads, watch);
+  return run_watched_fabric(resolved, pressure, resolved.coupling().threads, watch, own);
 }
 
 FabricSolution run_watched_fabric(const Settings& resolved, std::optional<double> pressure, int threads,
-                                  const RelaxWatch& watch) {
+                                  const RelaxWatch& watch, const CanopyMesh* own) {
   FabricSolution solution;
   auto& [r, mesh, shape, stress, tensions] = solution;
   r.title = resolved.title();
   r.pressure = fabric_pressure(resolved, pressure);
-  r.inputs_hash = inputs_hash(resolved, fmt::format("fabric under {} Pa", r.pressure));
+  if (!own) r.inputs_hash = inputs_hash(resolved, fmt::format("fabric under {} Pa", r.pressure));
   r.tolerance = resolved.coupling().cloth_tolerance;
-  mesh = parachute_mesh(resolved);
+  mesh = parachute_mesh(resolved, own);
+  const double nominal =
+      own ? std::sqrt(4 * cloth_area(*own) / std::numbers::pi) : nominal_diameter(resolved.parachute());
   ClothOptions cloth_options;
   cloth_options.linear = resolved.coupling().linear;
   const ClothPtr cloth = make_cloth(mesh, cloth_options);
@@ -80,8 +85,9 @@ FabricSolution run_watched_fabric(const Settings& resolved, std::optional<double
   relax_options.tolerance = r.tolerance;
   ThreadTeam team(threads);
   const auto begin = std::chrono::steady_clock::now();
-  const RelaxResult relaxed = relaxed_under(
-      resolved, r.pressure, [&] { return watched_relax(state, *cloth, loads, relax_options, team, watch); });
+  const RelaxResult relaxed = relaxed_under(resolved, r.pressure, nominal, [&] {
+    return watched_relax(state, *cloth, loads, relax_options, team, watch);
+  });
   r.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   shape = positions(state, *cloth);
   stress = cell_stress(*cloth, state);
@@ -90,12 +96,17 @@ FabricSolution run_watched_fabric(const Settings& resolved, std::optional<double
   r.pressure_load = pressure_force(*cloth, state, loads).z;
   r.line_tension = force_on_fixed(*cloth, state).z;
   r.size = canopy_size(mesh, shape);
-  r.projected_ratio = r.size.projected_diameter / nominal_diameter(resolved.parachute());
+  r.projected_ratio = r.size.projected_diameter / nominal;
   const KnownRange known = experience(resolved.parachute()).projected_ratio;
-  if (known.low > 0) r.known_projected_ratio = {known.low, known.high};
+  if (known.low > 0 && !own) r.known_projected_ratio = {known.low, known.high};
   for (const LineTension& t : line_tensions(mesh, tensions))
     r.max_line_tension = std::max(r.max_line_tension, t.largest_tension);
   r.stress = stress_peak(mesh, shape, stress);
+  r.margins = case_margins(resolved, mesh, tensions, r.stress);
+  r.warnings = margin_warnings(r.margins);
+  for (const auto& more : {own ? std::vector<std::string>() : mesh_warnings(resolved),
+                           strain_warnings(resolved, r.stress.strain)})
+    r.warnings.insert(r.warnings.end(), more.begin(), more.end());
   r.nodes = mesh.node_count();
   r.steps = relaxed.steps;
   r.residual = relaxed.residual;

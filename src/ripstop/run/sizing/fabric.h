@@ -15,6 +15,7 @@
 #include "ripstop/cloth/watched_relaxation.h"
 #include "ripstop/core/members.h"
 #include "ripstop/output/vtk.h"
+#include "ripstop/run/margins.h"
 
 namespace ripstop::inline run {
 
@@ -35,6 +36,8 @@ struct FabricResult {
   double tolerance = 0;
   bool converged = false;
   double wall_time = 0;  // of the relaxation [s]
+  std::optional<Margins> margins;
+  std::vector<std::string> warnings;
 };
 template <Of<FabricResult> T, class Visit>
 void each_member(T& r, Visit&& visit) {
@@ -61,6 +64,8 @@ void each_member(T& r, Visit&& visit) {
   visit("cloth_tolerance", r.tolerance);
   visit("converged", r.converged);
   visit("wall_time_s", r.wall_time);
+  visit("margins", r.margins);
+  visit("warnings", r.warnings);
 }
 std::string to_json(const FabricResult& result);
 
@@ -75,13 +80,15 @@ struct FabricSolution {
 /// `given` [Pa]; absent: the case's dynamic pressure.
 double fabric_pressure(const Settings& resolved, std::optional<double> given);
 
-/// Equilibrium under that pressure. Convergence is not promised.
+/// Equilibrium under that pressure. Convergence is not promised. `own`: a mesh in place of the canopy of the case
+/// (parachute/own_mesh.h); null: none.
 FabricSolution run_fabric(const Settings& resolved, std::optional<double> pressure,
-                          const std::function<void(const RelaxProgress&)>& report = {});
+                          const std::function<void(const RelaxProgress&)>& report = {},
+                          const CanopyMesh* own = nullptr);
 
 /// The same with the shape of the moment, by `threads` threads; 0: one per core.
 FabricSolution run_watched_fabric(const Settings& resolved, std::optional<double> pressure, int threads,
-                                  const RelaxWatch& watch);
+                                  const RelaxWatch& watch, const CanopyMesh* own = nullptr);
 
 /// Cloth with its stresses, and lines with their tension.
 VtkSurface fabric_canopy(const FabricSolution& solution);

@@ -21,11 +21,13 @@
 #include "ripstop/output/csv.h"
 #include "ripstop/run/engine.h"
 #include "ripstop/run/json.h"
+#include "ripstop/run/quality.h"
 #include "ripstop/run/stability/stability_files.h"
 #include "ripstop/run/stability/stability_report.h"
 #include "ripstop/run/stability/window_checkpoint.h"
 #include "ripstop/run/steady/checkpoint.h"
 #include "ripstop/run/steady/steady_folder.h"
+#include "ripstop/run/steady/warnings.h"
 
 namespace ripstop::inline run {
 namespace {
@@ -120,6 +122,8 @@ class Curve {
   void run_axis(SteadyObserver& observer) const;
   void take_speed();
   void take_shape();
+  /// Trims, and the warnings of the rows so far.
+  void take_results();
   StabilityRow run_angle(std::size_t i, StabilityObserver& observer);
   std::optional<SteadyState> start_from_neighbour(std::size_t i, Flow& flow) const;
   StabilityRow rigid_in_time(std::size_t i, ClaimedFolder& folder, FlowEngine& engine,
@@ -334,6 +338,13 @@ StabilityRow Curve::run_angle(std::size_t i, StabilityObserver& observer) {
   return row;
 }
 
+void Curve::take_results() {
+  take_trims(result_);
+  Judgement judgement = judge({{"cells_across", double(result_.cells_across)}});
+  judgement.add(air_warnings(cases_.front()));
+  result_.warnings.insert(result_.warnings.end(), judgement.warnings.begin(), judgement.warnings.end());
+}
+
 StabilityResult Curve::run(StabilityObserver& observer) {
   check();
   const auto folder = open();
@@ -343,7 +354,7 @@ StabilityResult Curve::run(StabilityObserver& observer) {
   observer.begin(result_, engine_name());
   for (std::size_t i = 0; i < cases_.size(); ++i) {
     result_.rows.push_back(run_angle(i, observer));
-    take_trims(result_);
+    take_results();
     write(*folder);
     if (i > 0) drop_flow(i - 1);  // no other angle starts from it
   }
@@ -396,7 +407,7 @@ StabilityResult Curve::gather(std::vector<std::string>& missing, StabilityObserv
     else
       missing.push_back(angle_name(angles_[i]));
   }
-  take_trims(result_);
+  take_results();
   write(*folder);
   for (std::size_t i = 0; missing.empty() && i + 1 < cases_.size(); ++i) drop_flow(i);
   if (missing.empty()) end(*folder, observer);

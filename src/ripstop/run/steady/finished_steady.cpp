@@ -36,8 +36,8 @@ void require_converged(const SteadyResult& result, const std::string& where) {
   if (result.converged) return;
   throw Error(ExitCode::bad_data,
               fmt::format("{}the steady run has not converged and its drag cannot be used; increase "
-                          "coupling.max_iterations and run it again{}",
-                          where.empty() ? "" : where + ": ", where.empty() ? "" : " with --fresh"));
+                          "coupling.max_iterations and {} it",
+                          where.empty() ? "" : where + ": ", where.empty() ? "repeat" : "continue"));
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/cost.h"
 #include "ripstop/case/resolve.h"
+#include "ripstop/core/error.h"
 #include "ripstop/flow/bodies.h"
 #include "ripstop/run/engine.h"
 #include "ripstop/run/json.h"
@@ -30,12 +31,12 @@ double dynamic_pressure(const Settings& resolved) {
   return 0.5 * flow.density_kg_m3 * flow.speed_m_s * flow.speed_m_s;
 }
 
-void take_quality(SteadyResult& r, const Settings& resolved) {
+void take_quality(SteadyResult& r, const Settings& resolved, bool own_mesh) {
   const auto gap = [&](double force) { return std::abs(force / r.ledger.fluid_force - 1); };
   Judgement judgement = judge({{"ledger_gap", std::max(gap(r.ledger.nodal_load), gap(r.ledger.line_tension))},
                                {"momentum_deficit_gap", gap(r.ledger.momentum_deficit)}});
   judgement.add(margin_warnings(r.margins));
-  judgement.add(warnings_of(resolved, r.stress.strain));
+  judgement.add(warnings_of(resolved, r.stress.strain, own_mesh));
   const bool needs_cells = resolved.coupling().load == CanopyLoad::of_flow;
   r.usable = judgement.usable && (!needs_cells || judge({{"cells_across", cells_across(resolved)}}).usable);
   r.warnings = std::move(judgement.warnings);
@@ -84,9 +85,10 @@ SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state,
   r.approach_speed = r.last.approach_speed;
   r.drag = r.last.fluid_force;
   r.drag_area = r.drag / dynamic_pressure(resolved);
-  r.reference_area = nominal_area(resolved.parachute());
+  r.reference_area = solver.reference_area();
   r.drag_coefficient = r.drag_area / r.reference_area;
-  r.known_drag_coefficient = experience(resolved.parachute()).drag_coefficient.if_known();
+  if (!solver.has_own_mesh())
+    r.known_drag_coefficient = experience(resolved.parachute()).drag_coefficient.if_known();
   r.size = canopy_size(solver.mesh(), state.shape);
   const ClothState cloth = solver.cloth_state(state);
   const std::vector<double> tensions = spring_tensions(solver.cloth(), cloth);
@@ -105,7 +107,7 @@ SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state,
   if (state.in_time) r.unsteady = unsteady_result(state.window, resolved);
   r.measured = resolved.measured_row();
   if (!state.body_forces.empty()) r.bodies = body_results(solver.bodies(), state, resolved);
-  take_quality(r, resolved);
+  take_quality(r, resolved, solver.has_own_mesh());
   return r;
 }
 
@@ -119,7 +121,7 @@ SteadyResult steady_result_from_json(const std::string& text) {
 
 SteadyParts steady_parts(const Settings& resolved, const SteadySettings& settings) {
   SteadyParts parts;
-  SteadyProblem problem = steady_problem(resolved);
+  SteadyProblem problem = steady_problem(resolved, settings.mesh.get());
   const int threads = settings.threads > 0 ? settings.threads : problem.settings.threads;
   problem.settings.threads = threads;
   const EngineRecord& record = engine_of(resolved);
@@ -147,6 +149,10 @@ SteadySolution run_steady(const Settings& resolved, SteadyObserver& observer,
                           const SteadySettings& settings) {
   require_steady_memory(resolved);
   RunClock clock;
+  if (settings.mesh && resolved.payload().mass_kg)
+    throw Error(ExitCode::usage,
+                "payload.mass_kg: the weight is that of the parachute of the case, which a mesh of your own "
+                "replaces; remove the payload and give flow.speed_m_s");
   if (resolved.payload().mass_kg) return run_with_payload(resolved, observer, settings, clock);
   const SteadyParts parts = steady_parts(resolved, settings);
   SteadySolver& solver = *parts.solver;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -198,6 +199,8 @@ struct SteadySettings {
   int threads = 0;                    // of this run; 0: coupling.threads
   std::filesystem::path flow_folder;  // of an engine that writes files; empty: a temporary one
   std::filesystem::path hostfile;     // for MPI; empty: none
+  /// In place of the canopy of the case (parachute/own_mesh.h); null: none. Coefficients refer to its cloth as cut.
+  std::shared_ptr<const CanopyMesh> mesh = nullptr;
 };
 
 struct SteadySolution {

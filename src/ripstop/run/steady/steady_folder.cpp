@@ -242,25 +242,45 @@ void check_steady_in(const SteadyFolderSettings& settings, const Settings& resol
   const fs::path& folder = settings.run.folder;
   require_hosts(settings.hostfile, resolved);
   require_unclaimed(folder);
-  const bool goes_on = holds_run(settings.run, resolved,
-                                 engine_of(resolved).name(engine_options(resolved)));  // the engine is there
-  if (goes_on && finished_result(folder)) return;
+  const std::string engine = engine_of(resolved).name(engine_options(resolved));  // it is there
+  if (!continues_run(settings.run, resolved, engine) && holds_run(settings.run, resolved, engine) &&
+      finished_result(folder))
+    return;
   if (!settings.elsewhere) require_steady_memory(resolved);
 }
 
-double drag_for_opening(const fs::path& folder, const Settings& opening) {
+namespace {
+
+struct RunOfFolder {
+  Settings resolved;
+  SteadyResult result;
+};
+
+RunOfFolder run_of_folder(const fs::path& folder) {
   const std::optional<std::string> text = finished_result(folder);
   if (!text)
     throw Error(ExitCode::usage,
                 fmt::format("{}: contains no finished run of ripstop steady", folder.string()));
-  return drag_for_opening(settings_of_run(folder), steady_result_from_json(*text), folder.string(), opening);
+  return {settings_of_run(folder), steady_result_from_json(*text)};
+}
+
+void require_for_opening(const Settings& resolved, const SteadyResult& result, const std::string& where,
+                         const Settings& opening) {
+  if (!result.converged)
+    throw Error(ExitCode::bad_data, fmt::format("{}: the steady run has not converged", where));
+  require_same_parachute(resolved, where, opening);
+}
+
+}  // namespace
+
+double drag_for_opening(const fs::path& folder, const Settings& opening) {
+  const RunOfFolder run = run_of_folder(folder);
+  return drag_for_opening(run.resolved, run.result, folder.string(), opening);
 }
 
 double drag_for_opening(const Settings& resolved, const SteadyResult& result, const std::string& where,
                         const Settings& opening) {
-  if (!result.converged)
-    throw Error(ExitCode::bad_data, fmt::format("{}: the steady run has not converged", where));
-  require_same_parachute(resolved, where, opening);
+  require_for_opening(resolved, result, where, opening);
   const auto check = [&](const char* what, double there, double now) {
     if (std::abs(there - now) <= 1e-6 * now) return;
     throw Error(ExitCode::usage,
@@ -270,6 +290,27 @@ double drag_for_opening(const Settings& resolved, const SteadyResult& result, co
   check("speed (m/s)", result.speed, opening.flow().speed_m_s);
   check("density (kg/m3)", result.density, opening.flow().density_kg_m3);
   return result.drag;
+}
+
+LoadSource steady_load(const fs::path& folder, const Settings& opening) {
+  const RunOfFolder run = run_of_folder(folder);
+  LoadSource load = steady_load(run.resolved, run.result, folder.string(), opening);
+  load.text = "steady run " + load.text;
+  return load;
+}
+
+LoadSource steady_load(const Settings& resolved, const SteadyResult& result, const std::string& where,
+                       const Settings& opening) {
+  if (!result.payload) {
+    const double drag = drag_for_opening(resolved, result, where, opening);
+    return {fmt::format("{}: {:.4g} N", where, drag), drag};
+  }
+  require_for_opening(resolved, result, where, opening);
+  const double speed = opening.flow().speed_m_s;
+  const double drag = result.drag_area * 0.5 * opening.flow().density_kg_m3 * speed * speed;
+  return {fmt::format("{}: drag area of {:.4g} m2 at {:.4g} m/s, {:.4g} N at {:g} m/s", where,
+                      result.drag_area, result.speed, drag, speed),
+          drag};
 }
 
 void require_same_parachute(const Settings& resolved, const std::string& where, const Settings& opening) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "ripstop/case/opening.h"
 #include "ripstop/case/settings.h"
 #include "ripstop/run/run_folder.h"
 #include "ripstop/run/steady/steady.h"
@@ -39,6 +40,11 @@ double drag_for_opening(const std::filesystem::path& folder, const Settings& ope
 /// The same of a run of `resolved`, which messages call `where`.
 double drag_for_opening(const Settings& resolved, const SteadyResult& result, const std::string& where,
                         const Settings& opening);
+/// The load of an opening from a steady run: that drag, or of a run with a payload, which found its own speed, its drag
+/// area at the speed of the opening. Throws as drag_for_opening().
+LoadSource steady_load(const std::filesystem::path& folder, const Settings& opening);
+LoadSource steady_load(const Settings& resolved, const SteadyResult& result, const std::string& where,
+                       const Settings& opening);
 /// Throws Error(usage) unless the run of `resolved`, which messages call `where`, has the parachute of `opening`, but for
 /// its mesh.
 void require_same_parachute(const Settings& resolved, const std::string& where, const Settings& opening);

@@ -67,13 +67,23 @@ std::vector<std::string> body_warnings(const Settings& resolved) {
   return warnings;
 }
 
+constexpr double open_cfm =
+    10;  // tighter cloth changes by less than 40 % from 124.5 to 1000 Pa (assumed b / a)
+
+/// Pressures beyond those at which open cloth was measured.
+std::vector<std::string> pressure_warnings(const Settings& resolved) {
+  const ClothResistance& cloth = resolved.materials().canopy.resistance;
+  if (model_of(cloth) != PorosityModel::sheet || cfm(as_sheet(cloth)) < open_cfm) return {};
+  const FlowSettings& flow = resolved.flow();
+  return outside_range(permeability_model,
+                       {{"dynamic pressure", 0.5 * flow.density_kg_m3 * flow.speed_m_s * flow.speed_m_s}});
+}
+
 /// Open cloth with a linear law: one reading of a permeability tester does not determine the flow at other pressures.
 std::vector<std::string> linear_law_warnings(const Fabric& cloth) {
-  constexpr double open =
-      10;  // CFM/ft2; tighter cloth changes by less than 40 % from 124.5 to 1000 Pa (assumed b / a)
   if (model_of(cloth.resistance) != PorosityModel::sheet) return {};
   const PressureDrop law = as_sheet(cloth.resistance);
-  if (!(law.linear > 0) || law.quadratic > 0 || cfm(law) < open) return {};
+  if (!(law.linear > 0) || law.quadratic > 0 || cfm(law) < open_cfm) return {};
   return {
       fmt::format("materials.{}: {:.3g} CFM/ft2 with a linear law (pressure_drop_quadratic_pa_s2_m2 = 0): "
                   "open cloth lets "
@@ -130,20 +140,33 @@ std::vector<std::string> strain_warnings(const Settings& resolved, double larges
   return all;
 }
 
-std::vector<std::string> case_warnings(const Settings& resolved) {
-  std::vector<std::string> all = mesh_warnings(resolved);
-  for (const std::vector<std::string>& more :
-       {grid_warnings(resolved), porosity_warnings(resolved), body_warnings(resolved),
-        range_warnings(resolved), shape_warnings(resolved)})
-    all.insert(all.end(), more.begin(), more.end());
+namespace {
+
+using Warnings = std::vector<std::string>;
+
+Warnings joined(const std::vector<Warnings>& parts) {
+  Warnings all;
+  for (const Warnings& more : parts) all.insert(all.end(), more.begin(), more.end());
   return all;
 }
 
-std::vector<std::string> warnings_of(const Settings& resolved, double largest_cloth_strain) {
-  std::vector<std::string> all = case_warnings(resolved);
-  const std::vector<std::string> strain = strain_warnings(resolved, largest_cloth_strain);
-  all.insert(all.end(), strain.begin(), strain.end());
-  return all;
+Warnings flow_warnings(const Settings& resolved) {
+  return joined({grid_warnings(resolved), body_warnings(resolved), air_warnings(resolved)});
+}
+
+}  // namespace
+
+Warnings air_warnings(const Settings& resolved) {
+  return joined({porosity_warnings(resolved), range_warnings(resolved), pressure_warnings(resolved)});
+}
+
+Warnings case_warnings(const Settings& resolved) {
+  return joined({mesh_warnings(resolved), flow_warnings(resolved), shape_warnings(resolved)});
+}
+
+Warnings warnings_of(const Settings& resolved, double largest_cloth_strain, bool own_mesh) {
+  return joined({own_mesh ? flow_warnings(resolved) : case_warnings(resolved),
+                 strain_warnings(resolved, largest_cloth_strain)});
 }
 
 }  // namespace ripstop::inline run

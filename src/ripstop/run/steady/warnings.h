@@ -16,13 +16,16 @@ std::vector<std::string> grid_warnings(const Settings& resolved);
 std::vector<std::string> porosity_warnings(const Settings& resolved);
 /// Mach and Reynolds number outside the range of the flow model.
 std::vector<std::string> range_warnings(const Settings& resolved);
+/// Of the air about a canopy in any command: the two above, and the pressure on open cloth.
+std::vector<std::string> air_warnings(const Settings& resolved);
 /// Of a profile whose apex is pulled down.
 std::vector<std::string> shape_warnings(const Settings& resolved);
 /// Warnings before the computation: the five above.
 std::vector<std::string> case_warnings(const Settings& resolved);
 /// Materials stretched beyond their tests, and such.
 std::vector<std::string> strain_warnings(const Settings& resolved, double largest_cloth_strain);
-/// All of them.
-std::vector<std::string> warnings_of(const Settings& resolved, double largest_cloth_strain);
+/// All of them. With a mesh of the user's own: without those of the mesh and shape of the case.
+std::vector<std::string> warnings_of(const Settings& resolved, double largest_cloth_strain,
+                                     bool own_mesh = false);
 
 }  // namespace ripstop::inline run
