@@ -42,8 +42,10 @@ ComparedNumber compared_number(const std::string& key, const std::vector<Json>& 
     const bool known = found != result.end() && found->is_number();
     number.values.push_back(known ? found->get<double>() : std::numeric_limits<double>::quiet_NaN());
   }
+  constexpr double rounding = 1e-9;  // such as a moment about the axis that is 0 but for rounding
   const double first = number.values.front(), last = number.values.back();
-  if (std::isfinite(first) && std::isfinite(last) && first != 0) number.difference = last / first - 1;
+  if (std::isfinite(first) && std::isfinite(last) && std::fabs(first) > rounding)
+    number.difference = last / first - 1;
   return number;
 }
 

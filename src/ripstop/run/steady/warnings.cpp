@@ -31,9 +31,9 @@ std::vector<std::string> grid_warnings(const Settings& resolved) {
   const double enough = quality_limit("cells_across").warn;
   if (resolved.coupling().load != CanopyLoad::of_flow) return {};
   const double across = cells_across(resolved);
-  if (across >= enough) return {};
+  if (across >= (1 - 1e-9) * enough) return {};  // ten cells that are 9.999...
   return {
-      fmt::format("{:.0f} flow cells across the inflated canopy: with fewer than {:.0f} the local load "
+      fmt::format("{:.3g} flow cells across the inflated canopy: with fewer than {:.0f} the local load "
                   "becomes discontinuous as cloth crosses grid cells, and the coupling may not converge; "
                   "increase flow.cells, or set coupling.load = \"uniform\"",
                   across, enough)};
