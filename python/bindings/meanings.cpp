@@ -126,6 +126,7 @@ CouponComparison.strain: strains of both curves
 CouponComparison.measured: measured load per width [N/m]
 CouponComparison.simulated: load per width of the virtual coupon [N/m]
 Estimate.value: the value
+Estimate.standard_error: standard error of the value
 Estimate.low: lower end of the 95 % interval
 Estimate.high: upper end of the 95 % interval
 FitProgress.pulls: number of coupons pulled so far
@@ -389,6 +390,7 @@ Family.density_kg_m3: density of the air in that run
 Family.made: command and machine of that run
 Family.flown: drag coefficient in descent; None: not flown
 FlownDrag.drag_coefficient: drag coefficient in descent on S0
+FlownDrag.standard_error: standard error of the coefficient
 FlownDrag.made: command and machine of the flight
 Size.descent_rate_m_s: required rate of descent
 Size.height_m: height above sea level at which this rate is required
