@@ -37,7 +37,7 @@ def signature(name, doc):
 def docstring(text, indent):
     if not text:
         return ""
-    text = text.replace("\\", "\\\\").replace('"""', '\\"\\"\\"')
+    text = re.sub('"$', r'\\"', text.replace("\\", "\\\\").replace('"""', '\\"\\"\\"'))
     lines = ('"""' + text + '"""').split("\n")
     return "".join((indent + line).rstrip() + "\n" for line in lines)
 

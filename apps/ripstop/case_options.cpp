@@ -50,17 +50,19 @@ void add_key_option(CLI::App& command, const std::string& option, const std::str
           [&overrides, option, key](const std::string& value) {
             overrides.set.push_back({key, value, option});
           },
-          with_range(help, key_range(key)))
+          with_key(help, key))
       ->type_name(key_type(key));
 }
 
 void add_flow_options(CLI::App& command, Overrides& overrides) {
   std::vector<std::string> words;
   for (const EngineRecord& engine : engines()) words.push_back(engine.word);
-  add_three(command, "--grid", overrides.grid, key_range("flow.cells"), "Cells NX,NY,NZ of the flow domain");
+  add_three(command, "--grid", overrides.grid, key_range("flow.cells"),
+            "Cells NX,NY,NZ of the flow domain (case key flow.cells)");
   command
       .add_option_function<std::string>(
-          "--flow", [&overrides](const std::string& engine) { overrides.engine = engine; }, "Flow engine")
+          "--flow", [&overrides](const std::string& engine) { overrides.engine = engine; },
+          "Flow engine (case key flow.engine)")
       ->check(CLI::IsMember(words))
       ->option_text(fmt::format("{}", fmt::join(words, "|")));
   add_key_number(command, "--ranks", "flow.ranks", overrides.ranks, "MPI processes of one flow solution");

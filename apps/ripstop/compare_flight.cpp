@@ -34,8 +34,8 @@ struct CompareFlightArguments {
 void print_phases(const MeasuredFlight& f) {
   const int height_width = both_units() ? 32 : 16, speed_width = both_units() ? 24 : 12,
             area_width = both_units() ? 42 : 26;
-  fmt::print("{:>6} {:>{}} {:>{}} {:>{}} {:>14}\n", "phase", "heights", height_width, "speed", speed_width,
-             "drag area", area_width, "C_D on S0");
+  fmt::print("{:>6} {:>{}} {:>{}} {:>{}} {:>14}\n", "phase", "above ground", height_width, "speed",
+             speed_width, "drag area", area_width, "C_D on S0");
   for (std::size_t i = 0; i < f.phases.size(); ++i) {
     const DescentPhase& p = f.phases[i];
     const std::string heights = in_units(fmt::format("{:.0f} to {:.0f} m", p.from_height, p.to_height));
@@ -51,20 +51,24 @@ void print_phases(const MeasuredFlight& f) {
 }
 
 void print_result(const MeasuredFlight& f, const fs::path& out) {
-  print_text("{}\n  {:.4g} kg ({}), highest {:.0f} m above ground, noise of a height {:.2f} m\n",
-             visible_line(f.title), f.mass, f.mass_from, f.highest, f.height_noise);
+  print_text(
+      "{}\n  mass {:.4g} kg ({}), apogee {:.0f} m above ground, noise of the heights {:.2f} m (standard "
+      "deviation)\n",
+      visible_line(f.title), f.mass, f.mass_from, f.highest, f.height_noise);
   print_phases(f);
   for (const LoggedDeployment& d : f.deployments) {
-    print_text("deployment at {:.1f} s, {:.0f} m: {:.1f} to {:.1f} m/s", d.time, d.height, d.speed_before,
-               d.speed_after);
+    print_text("deployment at {:.1f} s, {:.0f} m above ground: speed {:.1f} to {:.1f} m/s", d.time, d.height,
+               d.speed_before, d.speed_after);
     if (d.peak_load) print_text(", peak {:.4g} N", *d.peak_load);
     if (d.filling_time) print_text(", filling time {:.2f} s", *d.filling_time);
     if (d.filling_distance) print_text(" ({:.1f} nominal diameters)", *d.filling_distance);
     print_text("{}\n", d.problem.empty() ? "" : "; " + d.problem);
   }
   for (const FlightComparison& c : f.computed)
-    print_text("{}: {:.4f} +- {:.4f} m2{}\n", c.run, c.drag_area, c.drag_area_uncertainty,
-               c.difference ? fmt::format(", {:+.1f} % against phase {}", 100 * *c.difference, c.phase) : "");
+    print_text(
+        "computed drag area {:.4f} +- {:.4f} m2{}: {}\n", c.drag_area, c.drag_area_uncertainty,
+        c.difference ? fmt::format(", {:+.1f} % relative to phase {}", 100 * *c.difference, c.phase) : "",
+        c.run);
   fmt::print("{}\n", (out / "report.html").string());
 }
 
@@ -102,15 +106,15 @@ void add_compare_flight(CLI::App& app, int& status) {
   add_number(*command, "--mass", options->request.mass, key_range("payload.mass_kg"),
              "Mass that descends, parachute included [kg] (default: payload and parachute of the case)");
   add_number(*command, "--mass-uncertainty", options->mass_uncertainty_percent, from(0).up_to(50),
-             "Standard deviation of the mass [%]");
+             "Standard deviation of the mass [%] (default: 1)");
   add_number(*command, "--ground", options->request.ground, from(lowest_height).up_to(highest_height),
-             "Height of the ground above sea level [m]");
+             "Height of the ground above sea level [m] (default: 0)");
   add_number(
       *command, "--height-zero", options->request.height_zero, from(-highest_height).up_to(highest_height),
-      "Height above ground where the log reads 0 [m]; the negative height of the ground for a log above "
-      "sea level");
+      "Height above ground where the log reads 0 [m] (default: 0); the negative height of the ground for a "
+      "log above sea level");
   add_number(*command, "--body-drag-area", options->request.body_drag_area, from(0).up_to(100),
-             "Drag area of everything but the canopies [m2]");
+             "Drag area of everything but the canopies [m2] (default: 0)");
   command->add_option("--run", options->request.runs,
                       "Folder of a finished run of ripstop steady; repeatable");
   add_table_options(*command, options->columns, options->decimal, "altitude=Hoehe [m]");

@@ -41,9 +41,9 @@ void print_result(const Descent& d) {
              d.known_coefficient ? fmt::format("; Knacke, in descent: {:.2f} to {:.2f}",
                                                d.known_coefficient->at(0), d.known_coefficient->at(1))
                                  : "");
-  const int width = both_units() ? 18 : 10, speed_width = both_units() ? 38 : 20;
-  fmt::print("{:>{}} {:>13} {:>{}} {:>22}\n", "height", width, "air", "speed", speed_width,
-             fmt::format("time to {:g} m", d.ground));
+  const int width = both_units() ? 18 : 15, speed_width = both_units() ? 38 : 20;
+  fmt::print("{:>{}} {:>13} {:>{}} {:>22}\n", "above sea level", width, "air density", "descent rate",
+             speed_width, fmt::format("time to {:g} m", d.ground));
   for (const DescentRow& row : d.rows)
     fmt::print("{:>{}} {:>13} {:>{}} {:>22}\n", in_units(fmt::format("{:.4g} m", row.height)), width,
                fmt::format("{:.4f} kg/m3", row.density),

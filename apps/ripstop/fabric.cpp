@@ -35,8 +35,10 @@ struct FabricArguments {
 
 void print_result(const FabricResult& r, const fs::path& folder) {
   const auto row = print_row;
+  print_text("{}\n", r.title);
+  row("pressure difference", fmt::format("{:.4g} Pa", r.pressure));
   row("pressure load", fmt::format("{:.2f} N", r.pressure_load));
-  row("line tension, axial sum", fmt::format("{:.2f} N", r.line_tension));
+  row("line load", fmt::format("{:.2f} N", r.line_tension));
   row("projected diameter", fmt::format("{:.3f} m", r.size.projected_diameter));
   std::string ratio = fmt::format("{:.3f}", r.projected_ratio);
   if (r.known_projected_ratio) {
@@ -60,8 +62,8 @@ int run(const FabricArguments& options) {
                               resolved.coupling().cloth_tolerance));
   });
   const FabricResult& r = solution.result;
-  progress.line(fmt::format("{}: {} nodes under {:.4g} Pa, {} steps in {:.2f} s, residual {:.1e}", r.title,
-                            r.nodes, r.pressure, r.steps, r.wall_time, r.residual));
+  progress.line(fmt::format("{} nodes, {} steps in {:.2f} s, residual {:.1e}", r.nodes, r.steps, r.wall_time,
+                            r.residual));
   if (!options.out.empty()) write_fabric(options.out, solution);
   if (options.json)
     fmt::print("{}", to_json(r));

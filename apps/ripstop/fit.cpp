@@ -135,7 +135,7 @@ void add_fit(CLI::App& app, int& status) {
   command->add_flag("--no-coupons", options->no_coupons, "Do not fit xi and eps with virtual coupons");
   add_json_option(*command, options->json);
   add_number(*command, "--threads", options->threads, key_range("coupling.threads"),
-             "Number of threads; 0: all cores");
+             "Number of threads (default: 0, all cores)");
   command->callback([options, &status] { status = run(*options); });
 }
 

@@ -30,9 +30,11 @@ struct FlowParityArguments {
 void print_header(const ParityResult& result) {
   fmt::print("{} x {} x {} cells, {} of them porous, {} m/s\n\n", result.cells[0], result.cells[1],
              result.cells[2], result.porous_cells, result.speed);
-  fmt::print("{:13}{:>13}{:>13}{:>9}{:>9}{:>9}{:>9}{:>9}{:>7}{:>7}{:>9}{:>9}\n", "canopy", "OpenFOAM, N",
-             "built-in, N", "drag %", "U L2 %", "p L2 %", "U max %", "p max %", "it.", "it.", "time, s",
-             "time, s");
+  fmt::print("{:13}{:>22}{:>40}{:>18}{:>18}\n", "", "drag, N", "difference of drag, velocity, pressure, %",
+             "iterations", "wall time, s");
+  fmt::print("{:13}{:>11}{:>11}{:>8}{:>8}{:>8}{:>8}{:>8}{:>9}{:>9}{:>9}{:>9}\n", "canopy", "OpenFOAM",
+             "built-in", "drag", "U rms", "p rms", "U max", "p max", "OpenFOAM", "built-in", "OpenFOAM",
+             "built-in");
 }
 
 void print_parity(const ParityRow& row) {
@@ -45,7 +47,7 @@ void print_parity(const ParityRow& row) {
                                        : run->diverged);
     return;
   }
-  fmt::print("{:13}{:13.4f}{:13.4f}{:9.4f}{:9.4f}{:9.4f}{:9.4f}{:9.4f}{:7}{:7}{:9.2f}{:9.2f}{}\n", row.canopy,
+  fmt::print("{:13}{:11.4f}{:11.4f}{:8.4f}{:8.4f}{:8.4f}{:8.4f}{:8.4f}{:9}{:9}{:9.2f}{:9.2f}{}\n", row.canopy,
              theirs.drag, ours.drag, 100 * row.drag, 100 * row.velocity, 100 * row.pressure,
              100 * row.largest_velocity, 100 * row.largest_pressure, theirs.iterations, ours.iterations,
              theirs.wall_time, ours.wall_time, theirs.converged && ours.converged ? "" : "  not converged");
@@ -87,11 +89,11 @@ void add_flow_parity(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand(
       "flow-parity", "Run the built-in flow engine and OpenFOAM on the same cells and compare them");
   add_three(*command, "--cells", options->settings.cells, key_range("flow.cells"),
-            "Cells along x, y and z of the flow domain of 2 x 2 x 4 m");
+            "Cells along x, y and z of the flow domain of 2 x 2 x 4 m (default: 25,25,38)");
   add_number(*command, "--speed", options->settings.speed, from(0.1).up_to(100),
-             "Speed of the free stream [m/s]");
+             "Speed of the free stream [m/s] (default: 10)");
   add_number(*command, "--density", options->settings.density, from(0.1).up_to(10),
-             "Density of the air [kg/m3]");
+             "Density of the air [kg/m3] (default: 1.2)");
   command
       ->add_option("--surface", options->surface,
                    "Canopy as a binary STL in the axes of the domain (z from 0 to 4 m); default: a rigid "
@@ -100,9 +102,9 @@ void add_flow_parity(CLI::App& app, int& status) {
   command->add_option("--folder", options->settings.folder,
                       "Folder that keeps the case of OpenFOAM; default: a temporary folder");
   add_number(*command, "--ranks", options->settings.ranks, key_range("flow.ranks"),
-             "MPI processes of OpenFOAM");
+             "MPI processes of OpenFOAM (default: 1)");
   add_number(*command, "--threads", options->settings.threads, key_range("coupling.threads"),
-             "Threads of the built-in engine; 0: all cores");
+             "Threads of the built-in engine (default: 0, all cores)");
   command->add_flag("--incompressible", options->settings.incompressible,
                     "Constant density in both engines: porousSimpleFoam instead of rhoPorousSimpleFoam");
   command->add_flag("--slip", options->settings.slip,
@@ -112,10 +114,13 @@ void add_flow_parity(CLI::App& app, int& status) {
                     "engines start from the uniform stream");
   std::vector<std::string> names;
   for (const ParityCanopy& canopy : parity_canopies) names.emplace_back(canopy.name);
-  command->add_option("--canopy", options->settings.canopies, "Compute only this canopy; repeatable")
+  command
+      ->add_option("--canopy", options->settings.canopies,
+                   "Compute only this canopy (default: all); repeatable")
       ->check(CLI::IsMember(names));
   command->footer(
-      "Fails when drag differs by more than 0.5 % (1 % above 20 m/s with compressible air), or velocity or\n"
+      "The command fails when drag differs by more than 0.5 % (1 % above 20 m/s with compressible air), or "
+      "velocity or\n"
       "pressure (L2) by more than 1 % of the stream's speed or dynamic pressure.\n"
       "Examples: ripstop flow-parity --cells 50 50 75 --speed 30\n"
       "          ripstop flow-parity --speed 30 --incompressible --canopy printed");

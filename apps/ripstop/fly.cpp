@@ -43,7 +43,6 @@ std::string with_error(std::optional<double> value, std::optional<double> error,
 void print_flight(const FlightResult& r, const fs::path& folder, double wall_time) {
   const auto row = print_row;
   fmt::print("\n{}\n", r.title);
-  print_margins(r.margins);
   if (const auto& h = r.handover) {
     row("inflation", fmt::format("{:.3f} s, peak load {:.1f} N, {:.1f} m lost; {:.2f} m/s at its end",
                                  h->time, h->opening_peak, h->height_lost, h->opening_speed));
@@ -59,7 +58,7 @@ void print_flight(const FlightResult& r, const fs::path& folder, double wall_tim
   row("C_D0 in descent",
       with_error(r.coefficient, r.coefficient_error, "", 3) +
           (r.axial_coefficient ? fmt::format("; axial flow: {:.3f}", *r.axial_coefficient) : "") +
-          (r.known_coefficient ? fmt::format("; handbook, in descent: {:g} to {:g}",
+          (r.known_coefficient ? fmt::format("; Knacke, in descent: {:.2f} to {:.2f}",
                                              (*r.known_coefficient)[0], (*r.known_coefficient)[1])
                                : ""));
   row("glide ratio", with_error(r.glide, r.glide_error, "", 3));
@@ -67,9 +66,11 @@ void print_flight(const FlightResult& r, const fs::path& folder, double wall_tim
       with_error(r.oscillation, r.oscillation_error, " deg", 1) + fmt::format(", {} half-swings", r.peaks));
   row("oscillation, largest", with_error(r.largest, r.largest_error, " deg", 1));
   row("period", with_error(r.period, r.period_error, " s", 2));
-  if (r.roundness) row("plane (0) or conical (1)", fmt::format("{:.2f}", *r.roundness));
+  if (r.roundness)
+    row("roundness", fmt::format("{:.2f} (0: oscillation in a plane, 1: conical)", *r.roundness));
   row("largest force of the lines",
       fmt::format("{:.1f} N, {:.2f} times the payload's weight", r.largest_load, r.load_factor));
+  print_margins(r.margins);
   row("path", fmt::format("{:.1f} m down, {:.1f} m over the ground", r.height_lost, r.distance));
   row("balance", fmt::format("energy {:.3f} % of the potential energy lost, momentum {:.3f} % of the weight",
                              100 * r.energy_residual, 100 * r.momentum_residual));

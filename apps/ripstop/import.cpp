@@ -77,8 +77,8 @@ int run(const ImportArguments& options) {
   std::fflush(stdout);  // before a refusal below
   const Case given = parse_case(result.case_text, out.string() + " (not written)");
   write_file(out, result.case_text);
-  fmt::print("S0 {:.4f} m2, cloth {:.4f} m2: {}\n", nominal_area(given.parachute),
-             computed_area(given.parachute), out.string());
+  fmt::print("case file {}: S0 {:.4f} m2, cloth {:.4f} m2\n", out.string(), nominal_area(given.parachute),
+             computed_area(given.parachute));
   return 0;
 }
 
@@ -86,11 +86,10 @@ int run(const ImportArguments& options) {
 
 void add_import(CLI::App& app, int& status) {
   auto options = std::make_shared<ImportArguments>();
-  CLI::App* command = app.add_subcommand("import",
-                                         "Convert a design of openchute (.chute) or a parachute of "
-                                         "OpenRocket (.ork, .orc) to a case file and list "
-                                         "converted, changed and omitted parts");
+  CLI::App* command = app.add_subcommand(
+      "import", "Convert a design of openchute or a parachute of OpenRocket to a case file");
   command->footer(
+      "The output lists the parts that were converted, changed, omitted and assumed.\n"
       "Example: ripstop import examples/elliptical/elliptical.chute --out elliptical.toml\n"
       "         ripstop import examples/openrocket/two-stage-recovery.ork --device Drogue --out drogue.toml");
   command->add_option("file", options->file, "Design of openchute (.chute) or OpenRocket (.ork, .orc)")
@@ -111,7 +110,7 @@ void add_import(CLI::App& app, int& status) {
       ->add_option(
           "--diameter-is", options->diameter_is,
           "OpenRocket: meaning of the diameter, \"constructed\" (cloth laid flat) or \"projected\" (open "
-          "canopy, with C_D on its area)")
+          "canopy, with C_D on its area) (default: constructed)")
       ->check(CLI::IsMember({"constructed", "projected"}));
   add_number(
       *command, "--mass", options->payload_mass, key_range("payload.mass_kg"),

@@ -45,7 +45,8 @@ void print_deployment(const Settings& resolved) {
   if (!deployment) return;
   const PackedParachute packed = packed_parachute(resolved);
   print_text(
-      "deployment: container {:.3g} kg with {:.3g} m2, canopy {:.3g} kg, lines {:.3g} kg; strip force {:.3g} "
+      "deployment: container {:.3g} kg, its drag area {:.3g} m2; canopy {:.3g} kg, lines {:.3g} kg; strip "
+      "force {:.3g} "
       "N, line "
       "force {:.3g} N\n",
       packed.bag_mass, packed.bag_drag_area, packed.canopy_mass, packed.lines_mass, packed.strip_force,
@@ -54,7 +55,7 @@ void print_deployment(const Settings& resolved) {
     print_text("  {:<24} {:8.4f} s {:8.2f} m, payload at {:6.2f} m/s, container at {:6.2f} m/s\n", phase.name,
                phase.time, phase.path, phase.payload_speed, phase.bag_speed);
   if (deployment->phase(lines_stretch))
-    print_text("  snatch load {:.1f} N at {:.4f} s, {:.2f} m/s apart\n", deployment->snatch_load,
+    print_text("  snatch load {:.1f} N at {:.4f} s, speed difference {:.2f} m/s\n", deployment->snatch_load,
                deployment->snatch_time, deployment->relative_speed);
   if (deployment->stopped) print_text("  did not open: {}\n", *deployment->stopped);
 }
@@ -146,7 +147,7 @@ void print_steady_load(const InflationResult& r) {
   const auto row = print_row;
   const double low_pass_hz = r.settings.low_pass_hz;
   row(r.steady_load ? "steady load" : "load at the end",
-      fmt::format("{:.1f} N +- {:.1f} %, mean over the last fifth{}", r.summary.last_load,
+      fmt::format("{:.1f} N, mean over the last fifth, standard deviation {:.1f} %{}", r.summary.last_load,
                   100 * r.summary.unsteadiness,
                   r.steady_load ? "" : "; not a steady load at the speed of deployment"));
   if (r.steady_drag_returned) {
@@ -170,9 +171,9 @@ void print_steady_load(const InflationResult& r) {
 void print_result(const InflationResult& r, const fs::path& folder, double wall_time) {
   const auto row = print_row;
   print_text("\n{}\n", r.title);
-  print_margins(r.margins);
   print_peaks(r);
   print_steady_load(r);
+  print_margins(r.margins);
   row("impulse", fmt::format("{:.3f} N s", r.impulse));
   print_stages(r);
   row("maximum line tension", fmt::format("{:.1f} N", r.max_line_tension));
@@ -228,10 +229,11 @@ class Terminal : public InflationObserver {
 int status_of(bool settled, const Settings& resolved) {
   if (settled || resolved.inflation().mass == InflationSettings::Mass::payload) return 0;
   std::fflush(stdout);
-  fmt::print(stderr,
-             "not settled within inflation.duration_s = {:g} s: the load did not remain within 10 % of its "
-             "mean over the last tenth of that time; increase --duration\n",
-             resolved.inflation().duration_s);
+  fmt::print(
+      stderr,
+      "not settled within inflation.duration_s = {:g} s: in the last tenth of that time the load was not "
+      "always within 10 % of its mean over the last fifth; increase --duration\n",
+      resolved.inflation().duration_s);
   return static_cast<int>(ExitCode::not_converged);
 }
 
@@ -339,14 +341,17 @@ void add_inflate(CLI::App& app, int& status) {
           [options](const std::string& air) {
             options->opening.overrides.set.push_back({"inflation.air", air, "--air"});
           },
-          "Load model: uniform pressure, or flow that is computed in time together with the cloth")
+          "Load model: uniform pressure, or flow that is computed in time together with the cloth (case key "
+          "inflation.air)")
       ->check(CLI::IsMember({"uniform", "coupled"}))
       ->option_text("uniform|coupled");
   command->add_option("--out", options->out, "Run folder (default: runs/<name of the case>-inflation)");
   command->add_flag("--fresh", options->fresh,
                     "Replace the files of Ripstop in the run folder; default: resume the run");
-  add_number(*command, "--samples", options->samples, from(2).up_to(1000),
-             "Number of openings with different random perturbations of the folds, for mean and scatter");
+  add_number(
+      *command, "--samples", options->samples, from(2).up_to(1000),
+      "Number of openings with different random perturbations of the folds, for mean and scatter (default: "
+      "one opening as in the case)");
   command->add_flag("--check", options->check,
                     "Fold the canopy, print strain, pressure and time step, and stop");
   add_units_option(*command);

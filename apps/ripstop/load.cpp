@@ -43,7 +43,7 @@ struct LoadArguments {
 void print_stage(const StageLoads& s, const LoadResult& r, const std::string& known_caution) {
   print_text(
       "\nat {:.2f} s: {:.3g} m/s, {:.4g} m above sea level, drag area {:.3g} to {:.3g} m2\n"
-      "  filling {:.3g} s (n = {:.3g}), ballistic parameter {:.3g}, mass ratio {:.3g}\n",
+      "  filling time {:.3g} s (n = {:.3g}), ballistic parameter {:.3g}, mass ratio {:.3g}\n",
       s.begin, s.speed, s.height, s.drag_area_before, s.drag_area, s.filling_time, s.filling_constant,
       s.ballistic_parameter, s.mass_ratio);
   const int width = both_units() ? 24 : 10;
@@ -76,7 +76,7 @@ void print_stage(const StageLoads& s, const LoadResult& r, const std::string& kn
 }
 
 void print_snatch(const SnatchResult& s) {
-  print_text("snatch load {:.1f} N (speed difference {:.3g} m/s, {}), {:.1f} N per line{}\n", s.load,
+  print_text("snatch load {:.1f} N (speed difference {:.3g} m/s: {}), {:.1f} N per line{}\n", s.load,
              s.speed_difference, s.from, s.line_load,
              s.line_margin ? fmt::format(", breaking load / snatch load {:.2f}", *s.line_margin) : "");
   const auto cell = [](const std::optional<double>& load) {
@@ -137,8 +137,8 @@ void print_result(const LoadResult& r, const fs::path& folder) {
   print_text("\npeak load of the trajectory {:.1f} N after {:.3f} s\n", r.peak_load, r.peak_time);
   if (r.snatch) print_snatch(*r.snatch);
   if (r.steady_reached)
-    print_text("steady descent at {:.3g} m/s after {:.2f} s and {:.4g} m\n", r.steady_speed, r.steady_time,
-               r.steady_drop);
+    print_text("steady descent at {:.3g} m/s after {:.2f} s, {:.4g} m below line stretch\n", r.steady_speed,
+               r.steady_time, r.steady_drop);
   else
     print_text("steady descent is NOT reached above the ground: {:.3g} m/s at impact after {:.2f} s\n",
                r.steady_speed, r.steady_time);
@@ -220,8 +220,8 @@ void add_load(CLI::App& app, int& status) {
   CLI::Option* fastest =
       command
           ->add_flag("--fastest", options->fastest,
-                     "Find the largest airspeed at line stretch at which lines, riser and [hardware] keep "
-                     "their margin of safety, by every method")
+                     "Find the largest airspeed at line stretch at which tape or hem, lines, riser and "
+                     "[hardware] keep their margin of safety, by every method")
           ->excludes(speed);
   add_number(*command, "--margin", options->margin, from(0).up_to(100),
              "Margin of safety that every member keeps with --fastest (default: 0)")

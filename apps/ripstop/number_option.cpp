@@ -104,6 +104,10 @@ std::string key_type(const std::string& key) {
   return integer ? integer_type : number_type;
 }
 
+std::string with_key(const std::string& help, const std::string& key) {
+  return with_range(help + " (case key " + key + ")", key_range(key));
+}
+
 std::string with_range(const std::string& help, Range range) {
   return range.text().empty() ? help : help + "; " + range.text();
 }
@@ -162,7 +166,7 @@ CLI::Option* add_three(CLI::App& command, const std::string& option,
 
 CLI::Option* add_key_number(CLI::App& command, const std::string& option, const std::string& key,
                             std::optional<double>& value, const std::string& help) {
-  return add(command, option, with_range(help, key_range(key)), number_type,
+  return add(command, option, with_key(help, key), number_type,
              [&value, option, unit = unit_of_key(key)](const std::string& text) {
                value = parsed(option, text, unit);
              });
@@ -170,7 +174,7 @@ CLI::Option* add_key_number(CLI::App& command, const std::string& option, const 
 
 CLI::Option* add_key_number(CLI::App& command, const std::string& option, const std::string& key,
                             std::optional<int>& value, const std::string& help) {
-  return add(command, option, with_range(help, key_range(key)), integer_type,
+  return add(command, option, with_key(help, key), integer_type,
              [&value, option, range = key_range(key)](const std::string& text) {
                const double number = parsed(option, text, "");
                const bool fits = std::abs(number) <= std::numeric_limits<int>::max();

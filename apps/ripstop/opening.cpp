@@ -14,7 +14,8 @@ void add_opening_options(CLI::App& command, OpeningOptions& options) {
   command.add_option("case", options.case_file, "Case file (TOML) with an [inflation] table")->required();
   CLI::Option* steady = command
                             .add_option("--steady", options.steady_run,
-                                        "Run folder of ripstop steady; its drag determines the pressure")
+                                        "Run folder of ripstop steady; its drag determines the pressure "
+                                        "(default: pressure or drag coefficient of the case)")
                             ->check(CLI::ExistingDirectory);
   add_key_number(command, "--pressure", "inflation.pressure_pa", options.overrides.pressure,
                  "Pressure difference over the canopy [Pa]")

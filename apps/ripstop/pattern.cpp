@@ -86,12 +86,11 @@ int run(const PatternArguments& options) {
 
 void add_pattern(CLI::App& app, int& status) {
   auto options = std::make_shared<PatternArguments>();
-  CLI::App* command = app.add_subcommand("pattern",
-                                         "Write the cutting pattern: outlines to scale, lengths of tape and "
-                                         "line, bill of materials, packed volume");
+  CLI::App* command = app.add_subcommand(
+      "pattern", "Write the cutting pattern: outlines to scale, bill of materials, packed volume");
   command->footer("Example: ripstop pattern examples/adept/case.toml --out adept-pattern");
   command->add_option("case", options->case_file, "Case file (TOML)")->required();
-  command->add_option("--out", options->out, "Folder for the files")->capture_default_str();
+  command->add_option("--out", options->out, "Folder for the files (default: pattern)");
   const auto length = [&](const char* name, double& value, const char* text) {
     add_number(*command, name, value, allowance_range, fmt::format("{} (default: {:g})", text, value));
   };
@@ -104,9 +103,8 @@ void add_pattern(CLI::App& app, int& status) {
       fmt::format(
           "Density of the packed parachute, about 400 by hand, 600 with a press [kg/m3] (default: {:g})",
           options->packing_density));
-  command->add_option("--units", options->units, "Unit of the DXF files: mm or in")
-      ->check(CLI::IsMember({"mm", "in"}))
-      ->capture_default_str();
+  command->add_option("--units", options->units, "Unit of the DXF files: mm or in (default: mm)")
+      ->check(CLI::IsMember({"mm", "in"}));
   command
       ->add_option("--paper", options->paper,
                    "Also as PDF at true size on sheets of this paper, with registration marks: a4 or letter")

@@ -40,8 +40,8 @@ void print_result(const Photogrammetry& result) {
   fmt::print("camera at {:.4f} m ({}", *result.camera_distance,
              *result.distance_given ? "given" : "from the known diameters");
   if (*result.root_mean_square > 0) fmt::print(", residual {:.1f} mm rms", 1000 * *result.root_mean_square);
-  fmt::print(")\n{:>8} {:>10} {:>10} {:>10} {:>10}\n", "size, m", "apparent", "corrected", "known",
-             "computed");
+  fmt::print(")\n{:>8} {:>10} {:>10} {:>10} {:>10} {:>9}\n", "size, m", "apparent", "corrected", "known",
+             "computed", "error");
   for (const auto* sizes : {&*result.diameters, &*result.lengths})
     for (const SeenSize& size : *sizes) print_size(size);
 }

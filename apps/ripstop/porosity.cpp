@@ -226,13 +226,13 @@ void add_calibrate_porosity(CLI::App& parent, int& status) {
   CLI::App* command = parent.add_subcommand(
       "porosity", "Determine the porosity of the cloth from the measured drag of a reference parachute");
   command->footer(
-      "Example: ripstop calibrate porosity examples/stratos-iv/case.toml --gammas 0.18,0.20,0.22,0.24 "
-      "--shifts 3\n"
       "The file of --measured is a table with speed, density and drag, as in speed_m_s, density_kg_m3, "
       "drag_n;\n"
       "one row is enough.\n"
       "An interrupted calibration resumes when the command is repeated. For other parachutes of the same "
-      "cloth use\nthe two --set options that it prints.");
+      "cloth use\nthe two --set options that it prints.\n"
+      "Example: ripstop calibrate porosity examples/stratos-iv/case.toml --gammas 0.18,0.20,0.22,0.24 "
+      "--shifts 3");
   add_sweep_options(*command, *options);
   command
       ->add_option("--measured", options->measured,
@@ -245,10 +245,11 @@ void add_calibrate_porosity(CLI::App& parent, int& status) {
   add_numbers(*command, "--permeabilities", options->permeabilities, from(1e-3).up_to(9999),
               "Instead: values of the permeability [CFM/ft2 at half an inch of water], with b = 0")
       ->excludes(gammas);
-  add_number(*command, "--thickness", options->thickness, above(0).up_to(0.1),
-             "Thickness of the cloth in Ergun's law [m]; a and b of [NFM] correspond to 1.2e-4");
+  add_number(
+      *command, "--thickness", options->thickness, above(0).up_to(0.1),
+      "Thickness of the cloth in Ergun's law [m] (default: 1.2e-4, to which a and b of [NFM] correspond)");
   add_number(*command, "--shifts", options->shifts, from(1).up_to(100),
-             "Number of grid alignments along the flow that are averaged");
+             "Number of grid alignments along the flow that are averaged (default: 3)");
   command->add_option("--out", options->settings.folder,
                       "Folder (default: runs/<name of the case>-porosity)");
   command->callback([options, &status] { status = calibrate(*options); });

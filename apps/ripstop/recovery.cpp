@@ -32,6 +32,7 @@ struct RecoveryArguments {
 };
 
 std::string range_text(const Ranged& r, const char* unit) {
+  if (rounded(r.low) == rounded(r.high)) return fmt::format("{} {}", rounded(r.value), unit);
   return fmt::format("{} {}, range {} to {} {}", rounded(r.value), unit, rounded(r.low), rounded(r.high),
                      unit);
 }
@@ -57,8 +58,9 @@ void print_stage(const RecoveryStage& s) {
   print_row("descent rate at the end", range_text(s.descent_rate, "m/s"));
   print_row("duration", range_text(s.duration, "s"));
   print_row("drift", range_text(s.drift, "m"));
-  print_row("packed", fmt::format("{:.3g} litres, mass {:.3g} kg{}", 1000 * s.packed_volume, s.mass,
-                                  s.bay_length ? fmt::format(", {:.3g} m of the bay", *s.bay_length) : ""));
+  print_row("packed",
+            fmt::format("{:.3g} litres, mass {:.3g} kg{}", 1000 * s.packed_volume, s.mass,
+                        s.bay_length ? fmt::format(", length in the bay {:.3g} m", *s.bay_length) : ""));
 }
 
 std::string wind_text(const RecoveryResult& r) {

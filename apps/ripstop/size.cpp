@@ -38,7 +38,7 @@ struct SizeArguments {
 };
 
 void print_result(const SizeResult& r, const fs::path& file, const fs::path& page) {
-  const auto row = [](const char* name, const std::string& text) { print_text("  {:<20} {}\n", name, text); };
+  const auto row = print_row;
   print_text("{}\n", r.given.title);
   row("air", fmt::format("{:.4g} kg/m3", r.density));
   row("drag coefficient",
@@ -47,17 +47,17 @@ void print_result(const SizeResult& r, const fs::path& file, const fs::path& pag
                       ? fmt::format("; Knacke, in descent: {:.2f} to {:.2f}",
                                     r.handbook_drag_coefficient->at(0), r.handbook_drag_coefficient->at(1))
                       : ""));
-  row("of this family", fmt::format("axial {:.3f}, in descent {}", r.axial_coefficient,
-                                    r.flown_coefficient ? fmt::format("{:.3f} +- {:.3f} (flown)",
-                                                                      *r.flown_coefficient, *r.flown_error)
-                                                        : std::string("not flown")));
+  row("C_D of the family", fmt::format("axial {:.3f}, in descent {}", r.axial_coefficient,
+                                       r.flown_coefficient ? fmt::format("{:.3f} +- {:.3f} (flown)",
+                                                                         *r.flown_coefficient, *r.flown_error)
+                                                           : std::string("not flown")));
   row("nominal diameter",
       fmt::format("{:.3f} m{}, S0 {:.4g} m2", r.nominal_diameter,
                   r.handbook_diameter ? fmt::format(" ({:.2f} to {:.2f} m by the handbook)",
                                                     r.handbook_diameter->at(1), r.handbook_diameter->at(0))
                                       : "",
                   r.nominal_area));
-  row("vent", fmt::format("{:.4f} m2, {:.2f} %", r.vent_area, 100 * r.vent_area / r.nominal_area));
+  row("vent", fmt::format("{:.4f} m2, {:.2f} % of S0", r.vent_area, 100 * r.vent_area / r.nominal_area));
   row("gores, lines",
       fmt::format("{} gores, {} lines of {:.3f} m, {}{}", r.gores, r.line_count, r.line_length,
                   r.line_material, r.gores_source.empty() ? "" : "; " + r.gores_source));
@@ -65,10 +65,8 @@ void print_result(const SizeResult& r, const fs::path& file, const fs::path& pag
   row("mass", fmt::format("{:.3g} kg: cloth {:.3g}, tape {:.3g}, lines {:.3g}", r.parachute_mass,
                           r.cloth_mass, r.tape_mass, r.line_mass));
   row("packed volume", fmt::format("{:.3g} litres", 1000 * r.packed_volume));
-  row("DESIGN LOAD", fmt::format("{:.0f} N at {:.3g} m/s: {}; largest line load {:.2f} times the mean, "
-                                 "utilisation {:.0f} %",
-                                 r.design_load, r.deployment_speed, r.design_load_from, r.line_load_factor,
-                                 100 * r.line_used));
+  row("DESIGN LOAD", fmt::format("{:.0f} N at {:.3g} m/s: {}; largest line load {:.2f} times the mean",
+                                 r.design_load, r.deployment_speed, r.design_load_from, r.line_load_factor));
   row("applicable methods",
       fmt::format("opening load {:.0f} to {:.0f} N (ripstop load)", r.opening_load_low, r.opening_load));
   if (!r.opening.front().caution.empty()) row("", r.opening.front().caution);
@@ -202,7 +200,7 @@ void add_size(CLI::App& app, int& status) {
             r.drag_coefficient_on = area == "projected" ? DragReference::projected : DragReference::nominal;
           },
           "Area of --drag-coefficient: nominal (S0), or projected (the circle of the open canopy, as makers "
-          "state it)")
+          "state it) (default: nominal)")
       ->check(CLI::IsMember({"nominal", "projected"}));
   add_number(
       *command, "--deployment-speed", r.deployment_speed, above(0).up_to(1000),

@@ -42,12 +42,12 @@ std::string with_error(double value, const std::optional<double>& error) {
 }
 
 std::string row_text(const StabilityRow& row) {
-  return fmt::format("{:>7.4g} {:>18} {:>18} {:>18}", row.angle, with_error(row.c_t, row.c_t_error),
+  return fmt::format("{:>9.4g} {:>18} {:>18} {:>18}", row.angle, with_error(row.c_t, row.c_t_error),
                      with_error(row.c_n, row.c_n_error), with_error(row.c_m, row.c_m_error));
 }
 
 std::string heading() {
-  return fmt::format("{:>7} {:>18} {:>18} {:>18}", "deg", "C_T", "C_N", "C_m");
+  return fmt::format("{:>9} {:>18} {:>18} {:>18}", "angle deg", "C_T", "C_N", "C_m");
 }
 
 /// Rows and progress on standard error.
@@ -58,8 +58,9 @@ class StabilityTerminal : public StabilityObserver {
 
   SteadyObserver& axis() override { return axis_; }
   void begin(const StabilityResult& so_far, const std::string& engine) override {
-    progress_.line(fmt::format("{}: {}, {} cells, {} across {:.3f} m, {}", so_far.title, engine, so_far.cells,
-                               so_far.cells_across, so_far.projected_diameter, folder_.string()));
+    progress_.line(fmt::format("{}: {}, {} cells, {} across the projected diameter of {:.3f} m, {}",
+                               so_far.title, engine, so_far.cells, so_far.cells_across,
+                               so_far.projected_diameter, folder_.string()));
     progress_.line(heading());
     begin_ = Clock::now();
   }

@@ -80,7 +80,7 @@ void SteadyTerminal::begin(const SteadyRun& run, SteadyState& state) {
     progress_.line(
         fmt::format("resuming after coupling iteration {} in {}", state.iterations.size(), folder_.string()));
   }
-  progress_.line(fmt::format("{}: {}, {} cloth nodes, {}", run.resolved.title(), run.engine,
+  progress_.line(fmt::format("{}: {}, {} nodes, {}", run.resolved.title(), run.engine,
                              run.solver.mesh().node_count(), folder_.string()));
   progress_.line(iteration_header());
   for (const SteadyIteration& i : state.iterations) progress_.line(iteration_text(i));

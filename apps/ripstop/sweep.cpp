@@ -102,8 +102,8 @@ int run_only(const SweepArguments& options, const std::vector<SweepPoint>& point
   if (options.json)
     fmt::print("{}", to_json(result));
   else
-    fmt::print("{}: {:.4g} m/s, {:.2f} N, {:.4f} m2{}, {} iterations{}\n", point->folder, result.speed,
-               result.drag, result.drag_area, weakest_text(result.margins), result.iterations,
+    fmt::print("{}: {:.4g} m/s, drag {:.2f} N, drag area {:.4f} m2{}, {} iterations{}\n", point->folder,
+               result.speed, result.drag, result.drag_area, weakest_text(result.margins), result.iterations,
                result.converged ? "" : ", NOT converged");
   return result.converged ? 0 : static_cast<int>(ExitCode::not_converged);
 }
@@ -120,7 +120,7 @@ int sweep(SweepArguments& options) {
     check_sweep(points, options.settings);
     for (const SweepPoint& point : points)
       fmt::print("{}{}\n", (folder / point.folder).string(),
-                 options.cold || point.start < 0 ? "" : ", from " + points[point.start].folder);
+                 options.cold || point.start < 0 ? "" : ", starts from " + points[point.start].folder);
     fmt::print("{} runs, {} at the same time\n", points.size(),
                options.settings.jobs ? options.settings.jobs : fitting_jobs(points));
     return 0;
@@ -132,8 +132,8 @@ int sweep(SweepArguments& options) {
     fmt::print("{}", json);
   } else {
     fmt::print(
-        "{} (and result.json, drag, drag_area, drag_coefficient, diameters, iterations, wall_time as .svg "
-        "and .png)\n",
+        "{} (also result.json; plots of drag, drag_area, drag_coefficient, diameters, iterations and "
+        "wall_time as .svg and .png)\n",
         (folder / "sweep.csv").string());
     if (std::filesystem::exists(folder / report_name)) fmt::print("{}\n", (folder / report_name).string());
   }

@@ -86,13 +86,13 @@ std::vector<SweepRow> run_and_tell(const std::vector<SweepAxis>& axes, const std
     if (!running.erase(i)) ++ended_before;
     ++ended;
     const SweepRow& row = rows[i];
-    progress.line(row.done
-                      ? fmt::format("{:>3}/{} {}: {:.4g} m/s, {:.2f} N, {:.4f} m2{}, {} iterations, {}{}",
-                                    ended, points.size(), name(i), row.result.speed, row.result.drag,
-                                    row.result.drag_area, weakest_text(row.result.margins),
-                                    row.result.iterations, duration_text(row.result.wall_time),
-                                    row.result.converged ? "" : ", NOT converged")
-                      : fmt::format("{:>3}/{} {}: FAILED: {}", ended, points.size(), name(i), row.error));
+    progress.line(
+        row.done ? fmt::format(
+                       "{:>3}/{} {}: {:.4g} m/s, drag {:.2f} N, drag area {:.4f} m2{}, {} iterations, {}{}",
+                       ended, points.size(), name(i), row.result.speed, row.result.drag, row.result.drag_area,
+                       weakest_text(row.result.margins), row.result.iterations,
+                       duration_text(row.result.wall_time), row.result.converged ? "" : ", NOT converged")
+                 : fmt::format("{:>3}/{} {}: FAILED: {}", ended, points.size(), name(i), row.error));
     write_csv(settings.folder / "sweep.csv", sweep_table(axes, points, rows));
   };
   return run_sweep(points, settings, events);

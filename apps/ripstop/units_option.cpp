@@ -1,8 +1,12 @@
 #include "units_option.h"
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <cstddef>
 
 #include "ripstop/core/us_units.h"
+#include "ripstop/core/wrap.h"
 
 namespace ripstop::cli {
 namespace {
@@ -13,8 +17,9 @@ std::string chosen_units = "si";
 
 void add_units_option(CLI::App& command) {
   command
-      .add_option("--units", chosen_units,
-                  "Units of printed results: si, or us for both SI and US customary units; files are in SI")
+      .add_option(
+          "--units", chosen_units,
+          "Units of printed results: si (default), or us for both SI and US customary units; files are in SI")
       ->check(CLI::IsMember({"si", "us"}));
 }
 
@@ -27,7 +32,8 @@ std::string in_units(const std::string& text) {
 }
 
 void print_plain(const std::string& text) {
-  fmt::print("{}", in_units(text));
+  static const std::size_t width = terminal_width(STDOUT_FILENO);
+  fmt::print("{}", wrapped(in_units(text), width));
 }
 
 void print_row(const char* name, const std::string& text) {

@@ -19,7 +19,7 @@ bool both_units();
 
 /// One cell of a table, with --units us by with_us_units().
 std::string in_units(const std::string& text);
-/// Prints on standard output; with --units us by with_us_units().
+/// Prints on standard output; with --units us by with_us_units(). On a terminal long lines are wrapped.
 void print_plain(const std::string& text);
 template <class... Args>
 void print_text(fmt::format_string<Args...> format, Args&&... args) {

@@ -9,14 +9,20 @@
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/visible.h"
+#include "ripstop/core/wrap.h"
 #include "ripstop/run/steady/warnings.h"
 
 namespace ripstop::cli {
 
 void print_warnings(const std::vector<std::string>& warnings) {
   std::fflush(stdout);
-  const char* word = isatty(STDERR_FILENO) ? "\x1b[31mwarning\x1b[0m" : "warning";
-  for (const std::string& text : warnings) fmt::print(stderr, "{}: {}\n", word, visible(text));
+  const std::string word = "warning";
+  const std::size_t width = terminal_width(STDERR_FILENO);
+  for (const std::string& warning : warnings) {
+    const std::string text = wrapped(word + ": " + visible(warning), width);
+    fmt::print(stderr, "{}{}\n", isatty(STDERR_FILENO) ? "\x1b[31m" + word + "\x1b[0m" : word,
+               text.substr(word.size()));
+  }
 }
 
 int print_result_warnings(const std::optional<std::vector<std::string>>& warnings,

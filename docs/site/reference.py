@@ -91,8 +91,11 @@ def commands_page(program):
             continue
         if table := options_table(rows.get("Positionals", []) + rows.get("Options", [])):
             page += "\n" + table
-        if footer.startswith("Example:"):
-            page += "\n" + re.sub(r"^(?:Example:)?\s*", "    ", footer, flags=re.MULTILINE) + "\n"
+        text, _, example = re.sub(r"^Examples?:", "Example:", footer, flags=re.MULTILINE).partition("Example:")
+        if text.strip():
+            page += "\n" + cell(" ".join(text.split())) + "\n"
+        if example.strip():
+            page += "\n" + re.sub(r"^\s*", "    ", example.strip(), flags=re.MULTILINE) + "\n"
     return page
 
 
@@ -159,11 +162,9 @@ def class_text(node):
     page = f"\n### `{node.name}`\n\n" + (f"An exception, derived from `{bases}`.\n\n" if bases else "") + paragraphs(text_of(node))
     rows = []
     for member in node.body:
-        if isinstance(member, ast.AnnAssign):
-            rows.append((member.target.id, kind_of(member.annotation), ""))
-        elif isinstance(member, ast.FunctionDef) and any(ast.unparse(one) == "property" for one in member.decorator_list):
+        if isinstance(member, ast.FunctionDef) and any(ast.unparse(one) == "property" for one in member.decorator_list):
             doc = " ".join(text_of(member).split())
-            rows.append((member.name, kind_of(member.returns), "" if doc == member.name.replace("_", " ") else doc))
+            rows.append((member.name, kind_of(member.returns), doc))
     if rows:
         page += "\n| attribute | type | meaning |\n| --- | --- | --- |\n"
         page += "".join(f"| `{name}` | {cell(kind)} | {cell(doc)} |\n" for name, kind, doc in rows)

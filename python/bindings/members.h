@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "arrays.h"
+#include "meanings.h"
 #include "ripstop/core/members.h"
-#include "ripstop/core/words.h"
 
 namespace ripstop::python {
 
@@ -101,13 +101,14 @@ py::object plain_of(const std::string& json);
 template <class Holder, class Get>
 void add_members(py::class_<Holder>& type, Get get) {
   using T = std::decay_t<decltype(get(std::declval<const Holder&>()))>;
+  const auto class_name = py::str(type.attr("__name__")).template cast<std::string>();
   py::dict annotations;
   py::list names;
   int count = 0;
   T value;
   each_member(value, [&](const char* name, const auto& member, auto&&...) {
     const int index = count++;
-    const std::string doc = in_words(name).with_unit();
+    const std::string doc = meaning_of(class_name, name);
     type.def_property_readonly(name,
                                py::cpp_function(
                                    [get, index](py::object self) {

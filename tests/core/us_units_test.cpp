@@ -13,6 +13,10 @@ TEST(UsUnits, FollowEveryValueWithAUnit) {
             "75 J (55.3 ft lbf), 0.0254 m (1 in), 100 Pa (0.0145 psi)");
 }
 
+TEST(UsUnits, AHeightOfZeroIsInFeet) {
+  EXPECT_EQ(with_us_units("0 m"), "0 m (0 ft)");
+}
+
 TEST(UsUnits, HaveNoExponentWhereTheValueHasNone) {
   EXPECT_EQ(with_us_units("apogee 3048 m, 12 m3"), "apogee 3048 m (10000 ft), 12 m3 (732285 in3)");
 }

@@ -23,8 +23,17 @@ TEST(Words, AKeyBecomesWordsAndAUnit) {
   EXPECT_EQ(in_words("coupling_iterations").with_unit(), "coupling iterations");
 }
 
+TEST(Words, AnUncertaintyAndASourceNameTheirQuantity) {
+  EXPECT_EQ(in_words("rate_of_descent_standard_error_m_s").with_unit(),
+            "standard error of the rate of descent [m/s]");
+  EXPECT_EQ(in_words("drag_area_uncertainty_m2").with_unit(), "uncertainty of the drag area [m²]");
+  EXPECT_EQ(in_words("drag_coefficient_from").with_unit(), "source of the drag coefficient");
+  EXPECT_EQ(in_words("from").text, "from");
+}
+
 TEST(Words, AMomentIsNoForcePerWidth) {
   EXPECT_EQ(in_words("axial_moment_n_m").unit, "N m");
+  EXPECT_EQ(in_words("moment_n_m").unit, "N m");
   EXPECT_EQ(in_words("max_von_mises_n_m").unit, "N/m");
 }
 

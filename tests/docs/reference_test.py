@@ -151,6 +151,12 @@ class Reference(unittest.TestCase):
                             and f"| `{key}` |" not in section and f"#### `{key}()`" not in section]
         self.assertEqual(missing, [])
 
+    def test_every_attribute_without_a_unit_has_more_than_its_name_as_meaning(self):
+        page = (REFERENCE / "python.md").read_text().replace(r"\|", "or").replace("\\", "")
+        rows = re.findall(r"^\| `(\w+)` \| [^|]* \| ([^|]*) \|$", page, re.MULTILINE)
+        self.assertGreater(len(rows), 500)
+        self.assertEqual([name for name, meaning in rows if meaning.strip() in ("", name.replace("_", " "))], [])
+
     def test_quoted_commands_parse(self):
         found, wrong = 0, []
         for page in PAGES:

@@ -77,19 +77,20 @@ void describe(Fields& fields, StlKeys& keys) {
             "the smallest z.")
       .required();
   fields.number("scale", keys.scale, above(0).up_to(1000),
-                "Metres in a unit of the file, 0.001 for millimetres.");
+                "Length of one unit of the file in metres: 0.001 for millimetres.");
 }
 
 void describe(Fields& fields, BodyKeys& keys) {
   fields
       .number("trailing_distance_m", keys.trailing_distance_m, above(0).up_to(1000),
               "Distance from the aft end of the body to the skirt of the undeformed start shape.")
-      .absent("to the end of the riser, about");
-  fields.number("x_m", keys.x_m, from(-largest).up_to(largest), "Axis of the body from that of the canopy.");
-  fields.number("y_m", keys.y_m, from(-largest).up_to(largest), "Axis of the body from that of the canopy.");
+      .absent("approximately the distance from the skirt to the end of the riser");
+  fields.number("x_m", keys.x_m, from(-largest).up_to(largest),
+                "Position of the axis of the body relative to that of the canopy, along x.");
+  fields.number("y_m", keys.y_m, from(-largest).up_to(largest), "The same along y.");
   fields
       .number("reference_area_m2", keys.reference_area_m2, above(0).up_to(1e4),
-              "Area of its drag coefficient.")
+              "Reference area of the drag coefficient of the body.")
       .absent("frontal area");
   fields.kind("shape", keys.shape, {"sphere", "cylinder", "capsule", "box", "stl"},
               "Shape of the rigid body, which is impermeable.");

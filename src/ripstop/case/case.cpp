@@ -29,16 +29,15 @@ void describe(Fields& fields, Measured& measured) {
       .required();
   fields.number("density_kg_m3", measured.density_kg_m3, above(0).up_to(20), "Density of the air.")
       .required();
-  fields.number("drag_n", measured.drag_n, above(0).up_to(1e7), "Measured drag.")
-      .absent("withheld or not measured");
+  fields.number("drag_n", measured.drag_n, above(0).up_to(1e7), "Measured drag.").absent("no measured value");
   fields
       .number("printed_nonlinear_n", measured.printed_nonlinear_n, above(0).up_to(1e7),
               "Drag of the nonlinear model of the source.")
-      .absent("not printed");
+      .absent("no value of the source");
   fields
       .number("printed_linear_n", measured.printed_linear_n, above(0).up_to(1e7),
               "Drag of the linear model of the source.")
-      .absent("not printed");
+      .absent("no value of the source");
 }
 
 void describe(Fields& fields, Case& given) {

@@ -14,11 +14,12 @@ void describe_container(Fields& fields, DeploymentKeys& keys) {
   fields
       .number("drag_area_m2", keys.drag_area_m2, from(0).up_to(100),
               "C_D S of the packed container in the stream.")
-      .absent("side of a cube of the packed volume, squared");
+      .absent("area of one side of a cube with the packed volume");
   fields
       .number("length_m", keys.length_m, above(0).up_to(100),
-              "Length of the packed canopy along the path. It must be shorter than lines and riser.")
-      .absent("a length that fits");
+              "Length of the packed canopy along the path, for a check: it must be shorter than lines and "
+              "riser, and than 0.9 of the canopy.")
+      .absent("not checked");
 }
 
 void describe_extraction(Fields& fields, DeploymentKeys& keys) {

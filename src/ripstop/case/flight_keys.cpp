@@ -52,7 +52,8 @@ void describe(Fields& fields, FlightSettings& flight) {
   fields.number("angle_deg", flight.angle_deg, from(-60).up_to(60),
                 "Angle between the vertical and the line from payload to canopy at the start.");
   fields.number("azimuth_deg", flight.azimuth_deg, from(-360).up_to(360),
-                "Direction in which the payload is displaced at the start, from x to y.");
+                "Azimuth towards which the payload is displaced from below the canopy at the start, from the "
+                "x axis towards the y axis.");
   fields.number("swing_deg_s", flight.swing_deg_s, from(-360).up_to(360),
                 "Rate of change of angle_deg at the start.");
   fields

@@ -220,7 +220,7 @@ void describe(Fields& fields, FlowKeys& flow) {
       .number("speed_m_s", flow.speed_m_s, above(0).up_to(100),
               "Free-stream speed, below Mach 0.3, the limit of the flow model. With payload.mass_kg: start "
               "value of the iteration for the speed.")
-      .absent("needed, unless payload.mass_kg is given");
+      .absent("required, unless payload.mass_kg is given");
   fields.choice("speed_basis", flow.speed_basis,
                 {{"nominal", SpeedBasis::nominal}, {"measured", SpeedBasis::measured}},
                 "\"nominal\": speed_m_s is the speed of the stream; \"measured\": the measured speed of the "

@@ -118,15 +118,15 @@ void describe_run(Fields& fields, InflationSettings& inflation) {
 /// Known loads.
 void describe_known(Fields& fields, InflationSettings& inflation) {
   fields.number("measured_peak_n", inflation.measured_peak_n, above(0).up_to(1e7), "Measured peak load.")
-      .absent("withheld or not measured");
+      .absent("no measured value");
   fields
       .number("measured_inflation_time_s", inflation.measured_inflation_time_s, above(0).up_to(1000),
               "Measured time after which the load remains within 10 % of the steady load.")
-      .absent("withheld or not measured");
+      .absent("no measured value");
   fields
       .number("printed_peak_n", inflation.printed_peak_n, above(0).up_to(1e7),
               "Peak load of the model of the source.")
-      .absent("not printed");
+      .absent("no value of the source");
 }
 
 }  // namespace

@@ -86,8 +86,10 @@ LoadSource load_source(const Settings& opening) {
     return {fmt::format("coupled flow at {:g} m/s", opening.flow().speed_m_s), {}};
   if (inflation.pressure_pa.has_value() == inflation.drag_coefficient.has_value()) {
     throw Error(ExitCode::usage,
-                "the pressure must be given exactly once: inflation.pressure_pa, inflation.drag_coefficient, "
-                "--pressure or --steady RUN");
+                std::string(inflation.pressure_pa ? "the pressure is given twice: leave out one"
+                                                  : "the pressure is missing: give one") +
+                    " of inflation.pressure_pa, inflation.drag_coefficient, --pressure and --steady RUN, or "
+                    "compute the flow with --air coupled");
   }
   if (inflation.pressure_pa) return {fmt::format("given: {:g} Pa", *inflation.pressure_pa), {}};
   const double speed = opening.flow().speed_m_s;

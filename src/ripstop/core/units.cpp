@@ -151,6 +151,12 @@ bool is_unit(const std::string& text) {
   return false;
 }
 
+std::string si_unit(Dimension dimension) {
+  constexpr std::array<const char*, static_cast<std::size_t>(last_dimension) + 1> units = {
+      "N", "m", "s", "deg", "", "m/s", "m/s2", "Pa", "kg/m3", "kg", "Hz"};
+  return units.at(static_cast<std::size_t>(dimension));
+}
+
 std::string known_units(Dimension dimension) {
   std::string list;
   for (const KnownUnit& unit : units_of(dimension))

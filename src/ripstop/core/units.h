@@ -31,6 +31,8 @@ struct Unit {
 /// not a unit of this dimension, or when its upper and lower case leave a choice ("Mn").
 std::optional<Unit> find_unit(Dimension dimension, const std::string& text);
 std::optional<double> unit_factor(Dimension dimension, const std::string& text);
+/// The unit of values in SI: "N"; empty for a fraction.
+std::string si_unit(Dimension dimension);
 /// Volts, amperes, ohms, degrees: a column in these is not a quantity that Ripstop reads.
 bool is_foreign_unit(const std::string& text);
 /// Any of the above.

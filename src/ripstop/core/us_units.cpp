@@ -109,7 +109,8 @@ std::string with_us_units(const std::string& text) {
     const UsUnit* unit = i < all.size() && all[i] == ' ' ? unit_at(all.substr(i + 1)) : nullptr;
     if (!unit) continue;
     const std::string_view si = unit->si;
-    const bool inches = si == "m" && std::max(std::abs(first.value), std::abs(second.value)) < small_length;
+    const double largest = std::max(std::abs(first.value), std::abs(second.value));
+    const bool inches = si == "m" && largest > 0 && largest < small_length;
     result +=
         fmt::format(" {} ({}{}{} {})", si, converted(first, *unit, inches), between,
                     between.empty() ? "" : converted(second, *unit, inches), inches ? "in" : unit->name);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <string_view>
+#include <utility>
 
 namespace ripstop {
 namespace {
@@ -52,6 +53,13 @@ constexpr Ending endings[] = {
     {"_j", "J"},
 };
 
+// "rate_of_descent_standard_error_m_s": standard error of the rate of descent.
+constexpr std::pair<std::string_view, std::string_view> attributes[] = {
+    {" standard error", "standard error of the"},
+    {" uncertainty", "uncertainty of the"},
+    {" from", "source of the"},
+};
+
 // Where the key's own words do not do.
 const std::map<std::string_view, Wording>& known() {  // NOLINT(readability-function-size): a list
   static const std::map<std::string_view, Wording> words = {
@@ -71,8 +79,23 @@ const std::map<std::string_view, Wording>& known() {  // NOLINT(readability-func
       {"trims", {"trim angles", ""}},
       {"reference_length_m", {"reference length D₀", "m"}},
       {"drag_coefficient", {"drag coefficient", ""}},
+      {"computed_area_m2", {"cloth as cut", "m²"}},
+      {"meshed_area_m2", {"cloth as meshed", "m²"}},
+      {"resolved_cloth_nodes", {"cloth nodes for a diameter within 1 %", ""}},
+      {"printed_step_s", {"stable step by the estimate of [NFM]", "s"}},
+      {"projected_over_nominal", {"projected over nominal diameter", ""}},
+      {"steady_drag_returned", {"steady load over the given steady drag", ""}},
+      {"drag_area_peak_m2", {"largest drag area of a time step", "m²"}},
+      {"line_m", {"length of the reefing line", "m"}},
+      {"line_peak_n", {"peak tension of the reefing line", "N"}},
+      {"record_peak_load_n", {"peak load with the drag area of the computed opening", "N"}},
+      {"used", {"utilisation", ""}},
+      {"start_up_s", {"start-up time", "s"}},
+      {"ledger", {"force balance", ""}},
+      {"watched", {"averaging window", ""}},
+      {"inputs_hash", {"hash of the inputs", ""}},
       {"drag_area_m2", {"drag area", "m²"}},
-      {"reference_area_m2", {"reference area S₀", "m²"}},
+      {"reference_area_m2", {"reference area", "m²"}},
       {"known_drag_coefficient", {"usual drag coefficient in descent (Knacke)", ""}},
       {"max_line_tension_n", {"maximum line tension", "N"}},
       {"max_von_mises_n_m", {"maximum von Mises stress", "N/m"}},
@@ -81,7 +104,7 @@ const std::map<std::string_view, Wording>& known() {  // NOLINT(readability-func
       {"max_von_mises_time_s", {"time of the maximum stress", "s"}},
       {"max_cloth_strain", {"maximum cloth strain", ""}},
       {"max_principal_n_m", {"maximum principal stress", "N/m"}},
-      {"max_principal_direction", {"its direction (x, y, z)", ""}},
+      {"max_principal_direction", {"direction of the maximum principal stress (x, y, z)", ""}},
       {"max_warp_n_m", {"maximum force along the warp", "N/m"}},
       {"max_weft_n_m", {"maximum force along the weft", "N/m"}},
       {"wrinkled_share", {"share of the cloth that is wrinkled", ""}},
@@ -89,6 +112,7 @@ const std::map<std::string_view, Wording>& known() {  // NOLINT(readability-func
       {"transfer_factor", {"transfer factor: air load over the force of the pressures on the cloth", ""}},
       {"load_remainder", {"residual traction of the transfer", ""}},
       {"axial_moment_n_m", {"moment about the axis", "N m"}},
+      {"moment_n_m", {"moment about the centre of the aft end", "N m"}},
       {"section_gap", {"largest section imbalance", ""}},
       {"cloth_hold_pa_m", {"regularisation of the cloth", "Pa/m"}},
       {"cloth_held", {"regularisation forces over the load", ""}},
@@ -191,6 +215,10 @@ Wording in_words(const std::string& key) {
     break;
   }
   std::replace(words.text.begin(), words.text.end(), '_', ' ');
+  for (const auto& [ending, beginning] : attributes)
+    if (words.text.size() > ending.size() && words.text.ends_with(ending))
+      return {fmt::format("{} {}", beginning, words.text.substr(0, words.text.size() - ending.size())),
+              words.unit};
   return words;
 }
 

@@ -12,8 +12,7 @@
 
 namespace ripstop::inline fsi {
 
-/// Largest share of the load that regularisation may carry at convergence: half of the load error caused by
-/// the stepped cells of the flow.
+/// Largest share of the load that regularisation may carry at convergence (assumed).
 inline constexpr double regularisation_tolerance = 0.02;
 
 /// e_k and omega of [NFM] Eq. 18 and 19: how far the shape moved.

@@ -388,11 +388,9 @@ TEST(TableColumns, ThatAreNotWantedMayBeBroken) {
 TEST(TableColumns, AreExplainedInOneLineEach) {
   const std::vector<std::string> lines = explanation(read("Kraft [kN];Weg [mm]\n1,5;2\n2,5;\n"));
   ASSERT_EQ(lines.size(), 2u);
-  EXPECT_EQ(lines[0],
-            "t.csv: column 1 \"Kraft [kN]\" is force in kN, 2 values from 1500 to 2500 in SI units");
+  EXPECT_EQ(lines[0], "t.csv: column 1 \"Kraft [kN]\" is force in kN, 2 values from 1500 to 2500 N");
   EXPECT_EQ(lines[1],
-            "t.csv: column 2 \"Weg [mm]\" is extension in mm, 1 values from 0.002 to 0.002 in SI units, 1 "
-            "cells empty");
+            "t.csv: column 2 \"Weg [mm]\" is extension in mm, 1 values from 0.002 to 0.002 m, 1 cells empty");
 }
 
 }  // namespace

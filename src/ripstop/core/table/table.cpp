@@ -168,7 +168,8 @@ std::string range_of(const Column& column) {
   }
   if (count == 0) return "no values";
   const std::size_t missing = column.values.size() - count;
-  return fmt::format("{} values from {:.5g} to {:.5g} in SI units{}", count, low, high,
+  const std::string unit = si_unit(dimension_of(column.quantity));
+  return fmt::format("{} values from {:.5g} to {:.5g}{}{}{}", count, low, high, unit.empty() ? "" : " ", unit,
                      missing > 0 ? fmt::format(", {} cells empty", missing) : "");
 }
 

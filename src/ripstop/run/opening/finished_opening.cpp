@@ -29,7 +29,7 @@ void require_payload(const fs::path& folder) {
     refuse("contains no finished run of ripstop inflate",
            "compute one with inflation.air = \"coupled\" and inflation.mass = \"payload\"");
   if (!json.contains("speed_at_end_m_s"))
-    refuse("is an inflation without a payload, from which nothing flies on",
+    refuse("is an inflation without a payload, from whose end no flight can continue",
            "set inflation.air = \"coupled\" and inflation.mass = \"payload\"");
   if (!fs::is_directory(folder / end_folder))
     refuse("has no state of the air at its end (it is of an earlier version, or one of several samples)",

@@ -39,7 +39,7 @@ class Snatch {
       snatch.from = "[deployment] of the case";
       snatch.speed_difference = d.relative_speed, snatch.load = d.snatch_load;
     } else {
-      snatch.from = request_.snatch_speed ? "given speed difference" : "drag area of the packed canopy";
+      snatch.from = request_.snatch_speed ? "given" : "drag area of the packed canopy";
       snatch.speed_difference = request_.snatch_speed ? *request_.snatch_speed : difference(parts);
       const SnatchLoad load = snatch_load(masses_.first, masses_.second, snatch.speed_difference, parts);
       snatch.load = load.load, snatch.time = load.time, snatch.stretch = load.stretch;

@@ -42,9 +42,9 @@ ComparedNumber compared_number(const std::string& key, const std::vector<Json>& 
     const bool known = found != result.end() && found->is_number();
     number.values.push_back(known ? found->get<double>() : std::numeric_limits<double>::quiet_NaN());
   }
+  constexpr double rounding = 1e-9;  // such as a moment about the axis that is 0 but for rounding
   const double first = number.values.front(), last = number.values.back();
-  // A quantity that is 0 but for rounding, or changes its sign, has no relative change.
-  constexpr double rounding = 1e-9;
+  // A quantity that changes its sign has no relative change either.
   if (std::isfinite(first) && std::isfinite(last) && std::abs(first) > rounding && first * last >= 0)
     number.difference = last / first - 1;
   return number;
