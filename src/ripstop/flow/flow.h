@@ -93,8 +93,7 @@ struct BodyLoad {
   Vec3 moment;  // about FlowBody::moment_about [N m]
 };
 
-/// Loads of the air on a sheet at one face of the grid. A solid body has faces inside too, without area: the drops of a
-/// row of faces add up to the difference of pressure between its two sides.
+/// Loads of the air on a sheet at one face of the grid.
 struct SheetLoad {
   int body = 0, triangle = 0;  // of FlowProblem::bodies
   Vec3 point;                  // on the triangle [m]
