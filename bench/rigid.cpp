@@ -104,7 +104,8 @@ int main(int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
   const bool in_time = words.empty() || words[0] != "steady";
   if (!in_time) words.erase(words.begin());
-  if (words.empty()) return fmt::print("bench_rigid [steady] CELLS [sphere|cube|cylinder|long|nosed]...\n"), 2;
+  if (words.empty())
+    return fmt::print("bench_rigid [steady] CELLS [sphere|cube|cylinder|long|nosed]...\n"), 2;
   print_table_head(
       fmt::format("Closed bodies alone, {} cells across: {}", words[0], in_time ? "in time, DES" : "steady"),
       argc, argv, {"body", "C_D", "standard error, %", "published", "difference", "force imbalance, %"});
