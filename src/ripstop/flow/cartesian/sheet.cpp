@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "ripstop/core/error.h"
+#include "ripstop/flow/cartesian/solid_faces.h"
 #include "ripstop/flow/cartesian/state.h"
 
 namespace ripstop::inline flow::cartesian {
@@ -90,7 +91,8 @@ SheetRows::SheetRows(const Axis& x, const Axis& y, const Axis& z, const std::vec
   add_faces(x, y, z, bodies);
   if (faces_.empty()) return;
   double across = 0;
-  for (const Face& face : faces_) across += face.geometry.axis == 2 ? face.area : 0;
+  for (const Face& face : faces_)
+    across += face.geometry.axis == 2 && !face.geometry.enclosed ? face.area : 0;
   shut_ = across > 0.9 * (x.edge.back() - x.edge.front()) * (y.edge.back() - y.edge.front());
   lay_out();
 }
@@ -113,11 +115,11 @@ void SheetRows::add_faces(const Axis& x, const Axis& y, const Axis& z, const std
                     fmt::format("sheet: the motion of {} triangles for {}", count, sheet.surface.size()));
     }
     if (!quarter_) {
-      for (const SheetFace& geometry : sheet_faces(x, y, z, sheet.surface))
+      for (const SheetFace& geometry : faces_of(x, y, z, sheet))
         faces_.push_back(face_of(geometry, s, sheet, {&x, &y, &z}));
       continue;
     }
-    std::vector<SheetFace> found = sheet_faces(whole_of(x), whole_of(y), z, sheet.surface);
+    std::vector<SheetFace> found = faces_of(whole_of(x), whole_of(y), z, sheet);
     const std::vector<std::array<int, images>> triangles = take_quarter(found, nx_, ny_);
     for (std::size_t n = 0; n < found.size(); ++n) {
       const SheetFace& g = found[n];
@@ -240,12 +242,13 @@ void SheetRows::update(State& state, const Layout& layout, double momentum, doub
       const Vec3 velocity = Vec3{fields.u[cell], fields.v[cell], fields.w[cell]} - face.velocity;
       return along(g.axis, velocity) - dot(g.normal, velocity) / face.spread;
     };
-    // Not for a moving sheet: its tangential velocity is that of the last step, in cells through which it moves. At a
-    // step of the staircase the flux through the face determines the velocity of the adjacent cells, which would feed
-    // back into its own tangential-velocity estimate: the next cells are used instead.
+    // Not for a solid body, along which nothing slides into its inside, nor for a moving sheet: its tangential velocity
+    // is that of the last step, in cells through which it moves. At a step of the staircase the flux through the face
+    // determines the velocity of the adjacent cells, which would feed back into its own tangential-velocity estimate:
+    // the next cells are used instead.
     const bool at_step = face.cover == 1 && along(g.axis, g.normal) < step_normal;
     const std::ptrdiff_t off = at_step ? off_the_sheet(g.normal, layout) : 0;
-    const double slides = face.moves ? 0 : shared(sliding(low - off), sliding(high + off));
+    const double slides = face.moves || g.solid ? 0 : shared(sliding(low - off), sliding(high + off));
     const double goes = along(g.axis, face.velocity);
     double through = face.spread * (flux[high] / density - goes - slides);
     // A moving sheet is not at its face but between it and the next one. The velocity in the law is interpolated to
@@ -376,6 +379,7 @@ SheetLoad SheetRows::load_on(const Face& face, double drop, const State& state, 
   load.cover = face.cover;
   const double force = drop * face.area;
   load.force = {g.axis == 0 ? force : 0, g.axis == 1 ? force : 0, g.axis == 2 ? force : 0};
+  if (g.enclosed) return load;
   load.area = face.cover * face.area * along(g.axis, g.normal);
   const auto [below, above] = cells(g, layout);
   const double mean = 0.5 * (state.f.p[below] + state.f.p[above]),

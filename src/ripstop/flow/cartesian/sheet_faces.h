@@ -22,7 +22,9 @@ struct SheetFace {
   double area =
       0;        // of the sheet that the face represents [m2]; the sum over the faces is the area of the sheet
   Vec3 across;  // mean of the normals with all layers turned so that they look along the axis, unit
-  double cover = 1;  // the part of the face that is not open; less than 1 only at a free edge
+  double cover = 1;       // the part of the face that is not open; less than 1 only at a free edge
+  bool solid = false;     // of a solid body (solid_faces.h)
+  bool enclosed = false;  // between two cells inside it, where its surface is not
 };
 
 /// Every face between neighbouring cell centres with a triangle between them, in a fixed order. The faces of a closed
