@@ -34,7 +34,7 @@ ARCH_CHECK := gtest benchmark python pybind11 python-numpy python-jsonschema
 
 export PATH := /usr/bin:$(PATH)
 
-.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-openings validate-filling validate-flights validate-stability judge torture test-sizes test-studio test-tutorials test-drawings test-slurm test-hosts test-debian12 test-debian13 scaling docs reference report-libraries format format-check install-build install wheel tarball test-portable container package clean
+.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-symmetry validate-openings validate-filling validate-flights validate-stability judge torture test-sizes test-studio test-tutorials test-drawings test-slurm test-hosts test-debian12 test-debian13 scaling docs reference report-libraries format format-check install-build install wheel tarball test-portable container package clean
 
 help:  ## This list
 	@grep -hE '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -159,6 +159,9 @@ validate-families: build  ## Drag of every family's example compared with Knacke
 
 validate-families-in-time: build  ## The same with unsteady wakes, averaged in time, for the types in Knacke's manual: half an hour; resumable
 	@/usr/bin/python3 validation/families/families.py --ripstop build/bin/ripstop --in-time
+
+validate-symmetry: build  ## Steady drag of every example in the full flow domain and in a quarter, into docs/tables: half an hour; resumable
+	@/usr/bin/python3 validation/families/families.py --ripstop build/bin/ripstop --runs runs/symmetry --symmetry $(if $(GRID),--grid $(GRID))
 
 validate-openings: build  ## Coupled inflation of the same types, infinite mass, into docs/tables: half an hour; resumable
 	@/usr/bin/python3 validation/families/families.py --ripstop build/bin/ripstop --openings

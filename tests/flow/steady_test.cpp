@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "ripstop/core/error.h"
 
@@ -71,6 +72,38 @@ TEST(SolveToRest, ADragThatHasSettledEndsAtTheEndOfAPiece) {
   EXPECT_EQ(field.last.iteration, 75);
   EXPECT_FALSE(field.converged);
   EXPECT_EQ(flow.calls, (std::vector<int>{25, 25, 25}));
+}
+
+TEST(DragLeft, IsWhatAGeometricSeriesStillAdds) {
+  std::vector<double> drags;
+  for (int n = 0; n < 150; ++n) drags.push_back(100 + 20 * std::pow(0.99, n));
+  const double last_block = 20 * std::pow(0.99, 125) * (1 - std::pow(0.99, 25)) / (25 * 0.01);
+  EXPECT_NEAR(drag_left(drags), last_block / (100 + last_block), 1e-12);
+}
+
+TEST(DragLeft, AnExtremeOfTheDragIsNotItsLimit) {
+  std::vector<double> drags;
+  for (int n = 0; n < 75; ++n) drags.push_back(100 - 1e-3 * (n - 62) * (n - 62));  // flat in the last 25
+  EXPECT_LT(std::abs(drags[74] - drags[50]), 1e-3 * drags.back());
+  EXPECT_GT(drag_left(drags), 0.01);
+}
+
+TEST(DragLeft, IsUnknownAfterFewIterationsAndZeroForAConstant) {
+  EXPECT_TRUE(std::isinf(drag_left(std::vector<double>(29, 100.0))));
+  EXPECT_EQ(drag_left(std::vector<double>(30, 100.0)), 0);
+}
+
+// The residual is reached in iteration 10, the drag changes until later.
+TEST(SolveToRest, AResidualIsNotEnoughWhileMuchOfTheDragIsLeft) {
+  Scripted flow;
+  flow.residual = [](int n) { return std::pow(0.5, n); };
+  flow.drag = [](int n) { return 100 + 20 * std::exp(-n / 30.0); };
+  const FlowField field = solve_to_rest(flow, {.residual = 1e-3, .most_drag_left = 2e-3});
+  EXPECT_TRUE(field.converged);
+  EXPECT_LT(field.drag_left, 2e-3);
+  EXPECT_NEAR(field.porous_force.z, 100, 0.2);
+  EXPECT_EQ(field.last.iteration % Stopping::piece, 10);
+  EXPECT_GT(solve_to_rest(flow, {.residual = 1e-3}).drag_left, field.drag_left);
 }
 
 TEST(SolveToRest, ADragThatSwingsIsAveragedOverTheLastIterations) {

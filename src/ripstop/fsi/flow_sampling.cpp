@@ -31,7 +31,10 @@ double scatter_of_means(const std::vector<SteadyIteration>& iterations, double n
 }  // namespace
 
 FlowField steady_flow(Flow& flow, Stopping stopping, bool in_full, const FlowReport& report) {
-  if (!in_full) stopping.settled_drag = settled;
+  if (in_full)
+    stopping.most_drag_left = most_drag_left;
+  else
+    stopping.settled_drag = settled;
   return solve_to_rest(flow, stopping, report);
 }
 

@@ -9,6 +9,10 @@
 
 namespace ripstop::inline fsi {
 
+/// Share of the drag by which a flow that was solved in full may still change: half of the tolerance on its change from
+/// one coupling iteration to the next.
+inline constexpr double most_drag_left = 2.5e-3;
+
 /// Advances the flow about the surface as it lies. Until `in_full`, only until the drag has settled: a flow need not be
 /// solved to its last digit while the shape still moves.
 FlowField steady_flow(Flow& flow, Stopping stopping, bool in_full, const FlowReport& report);
