@@ -106,6 +106,16 @@ TEST(SolveToRest, AResidualIsNotEnoughWhileMuchOfTheDragIsLeft) {
   EXPECT_GT(solve_to_rest(flow, {.residual = 1e-3}).drag_left, field.drag_left);
 }
 
+TEST(SolveToRest, NearItsReferenceADragThatHasSettledIsNotEnough) {
+  Scripted flow;
+  flow.residual = [](int n) { return n < 90 ? 1 : 1e-9; };
+  const Stopping stopping{.settled_drag = 5e-3, .reference_drag = 100.4, .near = 5e-3};
+  EXPECT_EQ(solve_to_rest(flow, stopping).last.iteration, 90);
+  Scripted away;
+  away.drag = [](int) { return 101.0; };
+  EXPECT_EQ(solve_to_rest(away, stopping).last.iteration, 25);
+}
+
 TEST(SolveToRest, ADragThatSwingsIsAveragedOverTheLastIterations) {
   Scripted flow;
   flow.drag = [](int n) { return n % 2 ? 90.0 : 110.0; };

@@ -335,8 +335,7 @@ SettingsValues settings_values(const Case& given) {
 
 double cells_across(const Settings& resolved) {
   const FlowSettings& flow = resolved.flow();
-  return inflated_diameter(resolved.parachute()) /
-         flow_grid(flow).spacing({0, 0, flow.canopy_position_m}).x;
+  return inflated_diameter(resolved.parachute()) / flow_grid(flow).spacing({0, 0, flow.canopy_position_m}).x;
 }
 
 FlowGrid flow_grid(const FlowSettings& flow) {

@@ -137,6 +137,8 @@ struct Stopping {
   /// Enough, too, once the drag moved by less than this share of itself within `piece` iterations; 0: never.
   double settled_drag = 0;
   static constexpr int piece = 25;
+  /// But not where the drag lies within the share `near` of `reference_drag` [N]; 0: there too.
+  double reference_drag = 0, near = 0;
   /// The residual is not enough before drag_left() is below this share; 0: it is.
   double most_drag_left = 0;
 };

@@ -56,12 +56,11 @@ class Run {
     while (done_ < before_average) {
       const int left = before_average - done_;
       // Pieces of a fixed length, so that a run that was killed repeats the very same iterations.
-      advance(stopping_.settled_drag > 0 || converged_ ? std::min(Stopping::piece, left) : left);
+      advance(stopping_.settled_drag > 0 || at_residual_ ? std::min(Stopping::piece, left) : left);
       const bool ended = now_.stopped || now_.last.iteration < 1;  // it does no more
-      if (ended || (converged_ && little_is_left()) || has_settled(drag_, stopping_.settled_drag))
-        return last();
+      if (ended || converged() || settled_early()) return last();
     }
-    return stopping_.average_over > 0 && !converged_ ? average() : last();
+    return stopping_.average_over > 0 ? average() : last();
   }
 
  private:
@@ -69,20 +68,28 @@ class Run {
   void advance(int iterations) {
     drag_.clear();
     const int before = done_;
-    now_ = flow_.advance(iterations, converged_ ? 0 : stopping_.residual, [&](FlowProgress progress) {
+    now_ = flow_.advance(iterations, at_residual_ ? 0 : stopping_.residual, [&](FlowProgress progress) {
       drag_.push_back(progress.drag);
       progress.iteration += before;
       return !report_ || report_(progress);
     });
     done_ += now_.last.iteration;
-    converged_ = (converged_ || now_.converged) && !now_.stopped;
+    at_residual_ = (at_residual_ || now_.converged) && !now_.stopped;
     all_drag_.insert(all_drag_.end(), drag_.begin(), drag_.end());
   }
 
+  bool settled_early() const {
+    const bool near =
+        std::abs(now_.last.drag - stopping_.reference_drag) < stopping_.near * std::abs(now_.last.drag);
+    return !near && has_settled(drag_, stopping_.settled_drag);
+  }
+
   // A flow that reaches its residual in so few iterations that the estimate is not known has hardly changed.
-  bool little_is_left() const {
+  bool converged() const {
     const double left = drag_left(all_drag_);
-    return !(stopping_.most_drag_left > 0) || std::isinf(left) || left < stopping_.most_drag_left;
+    const bool settled =
+        !(stopping_.most_drag_left > 0) || std::isinf(left) || left < stopping_.most_drag_left;
+    return at_residual_ && settled;
   }
 
   // A mean is one over the whole window; a run that settles or is stopped inside it has its last field.
@@ -91,7 +98,7 @@ class Run {
     std::vector<double> drags;
     for (int n = 0; n < stopping_.average_over; n += stopping_.average_every) {
       advance(stopping_.average_every);
-      if (converged_ || now_.stopped) return last();
+      if (converged() || now_.stopped) return last();
       flow_.add_to(mean);
       drags.insert(drags.end(), drag_.begin(), drag_.end());
     }
@@ -105,7 +112,7 @@ class Run {
   FlowField told(FlowField field) const {
     field.last = now_.last;
     field.last.iteration = done_;
-    field.converged = converged_;
+    field.converged = converged();
     field.drag_left = drag_left(all_drag_);
     return field;
   }
@@ -114,7 +121,7 @@ class Run {
   const Stopping& stopping_;
   const FlowReport& report_;
   int done_ = 0;
-  bool converged_ = false;                // to the residual, in this piece or before it
+  bool at_residual_ = false;             // in the last piece or before it
   std::vector<double> drag_, all_drag_;  // of the last piece, and of all iterations [N]
   FlowAdvance now_;
 };

@@ -67,6 +67,16 @@ bool SteadyConvergence::asks_for_full_flow(const SteadyState& state, const Stead
   return settings_.load == CanopyLoad::of_flow || last.drag_change < settings_.drag_tolerance;
 }
 
+Stopping SteadyConvergence::stopping(const FlowProblem& problem, const SteadyState& state) const {
+  Stopping stopping = problem.stopping;
+  // The drag of an iteration of the flow is that of all bodies.
+  if (settings_.load != CanopyLoad::of_flow || problem.bodies.size() > 1 || state.iterations.empty())
+    return stopping;
+  stopping.reference_drag = state.iterations.back().fluid_force;
+  stopping.near = settings_.drag_tolerance + (window_ ? window_->standard_error : 0);
+  return stopping;
+}
+
 // Before a window, drag and force balance need not be more accurate than the mean in time will be. In time only the
 // force balance is tested: the nodal load is the mean of the previous windows, from which this one may differ by
 // twice the standard error of the difference.

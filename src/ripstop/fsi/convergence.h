@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "ripstop/flow/flow.h"
 #include "ripstop/flow/unsteady.h"
 #include "ripstop/fsi/coupling_settings.h"
 #include "ripstop/fsi/steady_state.h"
@@ -32,6 +33,9 @@ class SteadyConvergence {
 
   /// The next flow is to be solved to its residual, or averaged over a whole window: the loop looks converged.
   bool asks_for_full_flow(const SteadyState& state, const SteadyIteration& now) const;
+
+  /// The problem's, and the drag that a flow in full is to be compared with.
+  Stopping stopping(const FlowProblem& problem, const SteadyState& state) const;
 
   /// Shape and drag have settled, and the ledger closes. `in_full`: the flow of `now` was solved in full.
   bool reached(const SteadyState& state, const SteadyIteration& now, bool in_full) const;

@@ -34,7 +34,8 @@ FlowField steady_flow(Flow& flow, Stopping stopping, bool in_full, const FlowRep
   if (in_full)
     stopping.most_drag_left = most_drag_left;
   else
-    stopping.settled_drag = settled;
+    stopping.reference_drag = stopping.near = 0;
+  if (!in_full || stopping.near > 0) stopping.settled_drag = settled;
   return solve_to_rest(flow, stopping, report);
 }
 

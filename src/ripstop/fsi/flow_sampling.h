@@ -14,7 +14,8 @@ namespace ripstop::inline fsi {
 inline constexpr double most_drag_left = 2.5e-3;
 
 /// Advances the flow about the surface as it lies. Until `in_full`, only until the drag has settled: a flow need not be
-/// solved to its last digit while the shape still moves.
+/// solved to its last digit while the shape still moves. Likewise if `stopping` has a reference and the drag settles away
+/// from it: then the coupling cannot converge in this iteration.
 FlowField steady_flow(Flow& flow, Stopping stopping, bool in_full, const FlowReport& report);
 
 /// Mean over an averaging window of the flow about the surface as it lies; its statistics replace state.window, its

@@ -28,7 +28,7 @@ struct SteadyIteration {
   double regularisation_share = 0;  // RelaxResult::regularisation_share
   int flow_iterations = 0;
   double flow_residual = 0;     // largest of all equations
-  bool flow_converged = false;  // to Stopping::residual
+  bool flow_converged = false;  // to Stopping::residual, and its drag has settled
   int flow_averaged = 0;        // iterations over which a flow that did not converge is averaged; 0: none
   double drag_deviation = 0;    // standard deviation of the drag over them, or over the watch [N]
   double drag_left = 0;         // FlowField::drag_left
