@@ -45,9 +45,9 @@ TEST(Symmetry, AutoSolvesAQuarterWhereCanopyCellsAndStreamAreMirrored) {
 }
 
 TEST(Symmetry, AutoSolvesTheFullDomainOnCoarseCellsAndInAnOpenJet) {
-  const Setting coarse{"flow.cells", "[40, 40, 50]"}, fine{"flow.cells", "[56, 56, 68]"};
+  const Setting coarse{"flow.cells", "[40, 40, 50]"}, fine{"flow.cells", "[64, 64, 78]"};
   const Setting quarter{"flow.symmetry", "quarter"};
-  EXPECT_EQ(full_because({coarse}), "there are 13.2 flow cells across the canopy, fewer than 16");
+  EXPECT_EQ(full_because({coarse}), "there are 10.0 flow cells across the canopy, fewer than 16");
   EXPECT_EQ(full_because({coarse, quarter}), "");
   EXPECT_EQ(full_because({fine}), "");
   const Setting jet{"flow.tunnel.kind", "open-jet"}, width{"flow.tunnel.width_m", "3"};
