@@ -16,6 +16,7 @@ class Scripted : public Flow {
  public:
   std::function<double(int)> drag = [](int) { return 100.0; };
   std::function<double(int)> residual = [](int) { return 1.0; };
+  std::function<double(int)> deficit = [](int) { return 100.0; };
   int diverges_at = 0;  // 0: never
   bool has_guess = false;
   int iteration = 0, starts = 1;
@@ -37,6 +38,7 @@ class Scripted : public Flow {
   FlowField field() const override {
     FlowField field;
     field.porous_force = {0, 0, drag(iteration)};
+    field.momentum_deficit = {0, 0, deficit(iteration)};
     return field;
   }
   bool untouched() const override { return iteration == 0 && !guessed_; }
@@ -114,6 +116,15 @@ TEST(SolveToRest, NearItsReferenceADragThatHasSettledIsNotEnough) {
   Scripted away;
   away.drag = [](int) { return 101.0; };
   EXPECT_EQ(solve_to_rest(away, stopping).last.iteration, 25);
+}
+
+TEST(SolveToRest, AConstantDragIsNotEnoughWhileTheWakeGrows) {
+  Scripted flow;
+  flow.deficit = [](int n) { return 100 * (1 - std::exp(-n / 50.0)); };  // 4 % are left after 161 iterations
+  EXPECT_EQ(solve_to_rest(flow, {.settled_drag = 5e-3, .momentum_gap = 0.04}).last.iteration, 175);
+  Scripted unknown;
+  unknown.deficit = [](int) { return std::nan(""); };
+  EXPECT_EQ(solve_to_rest(unknown, {.settled_drag = 5e-3, .momentum_gap = 0.04}).last.iteration, 25);
 }
 
 TEST(SolveToRest, ADragThatSwingsIsAveragedOverTheLastIterations) {

@@ -24,9 +24,6 @@ void check(const Stopping& s) {
                                              s.average_over, s.max_iterations));
   if (s.average_every < 1)
     throw Error(ExitCode::usage, fmt::format("flow: average_every = {} must be at least 1", s.average_every));
-  if (s.most_drag_left < 0)
-    throw Error(ExitCode::usage,
-                fmt::format("flow: most_drag_left = {} must not be negative", s.most_drag_left));
 }
 
 bool has_settled(const std::vector<double>& drag, double share) {
@@ -81,7 +78,15 @@ class Run {
   bool settled_early() const {
     const bool near =
         std::abs(now_.last.drag - stopping_.reference_drag) < stopping_.near * std::abs(now_.last.drag);
-    return !near && has_settled(drag_, stopping_.settled_drag);
+    return !near && has_settled(drag_, stopping_.settled_drag) && wake_has_settled();
+  }
+
+  bool wake_has_settled() const {
+    if (!(stopping_.momentum_gap > 0)) return true;
+    const FlowField field = flow_.field();
+    const double force = dot(field.porous_force, field.porous_force),
+                 gap = std::abs(dot(field.momentum_deficit, field.porous_force) / force - 1);
+    return !(gap > stopping_.momentum_gap);  // of an engine that does not know it: settled
   }
 
   // A flow that reaches its residual in so few iterations that the estimate is not known has hardly changed.
@@ -89,7 +94,7 @@ class Run {
     const double left = drag_left(all_drag_);
     const bool settled =
         !(stopping_.most_drag_left > 0) || std::isinf(left) || left < stopping_.most_drag_left;
-    return at_residual_ && settled;
+    return at_residual_ && settled && wake_has_settled();
   }
 
   // A mean is one over the whole window; a run that settles or is stopped inside it has its last field.

@@ -7,6 +7,17 @@
 #include "ripstop/fsi/ledger.h"
 
 namespace ripstop::inline fsi {
+namespace {
+
+// The drag has settled when it moved by less than this within one piece of the flow's solution: half the
+// default tolerance on the drag's change from one coupling iteration to the next.
+constexpr double settled_drag = 5e-4;
+// Largest difference of momentum deficit and drag while the shape still moves, and at the end.
+constexpr double developing_wake = 0.04, settled_wake = 0.015;
+// Share of the drag by which a flow in full may still change: half of the default tolerance on its change.
+constexpr double most_drag_left = 2.5e-3;
+
+}  // namespace
 
 void enter_shape_change(SteadyIteration& now, const std::vector<Vec3>& before,
                         const std::vector<Vec3>& after) {
@@ -67,13 +78,21 @@ bool SteadyConvergence::asks_for_full_flow(const SteadyState& state, const Stead
   return settings_.load == CanopyLoad::of_flow || last.drag_change < settings_.drag_tolerance;
 }
 
-Stopping SteadyConvergence::stopping(const FlowProblem& problem, const SteadyState& state) const {
+// The load of the flow follows the wake, whose growth the drag alone does not show. If the drag settles away from that of
+// the last iteration, the coupling cannot converge in this one, and the flow is not solved in full.
+Stopping SteadyConvergence::stopping(const FlowProblem& problem, const SteadyState& state,
+                                     bool in_full) const {
   Stopping stopping = problem.stopping;
+  if (!in_full) stopping.settled_drag = settled_drag;
+  if (settings_.load != CanopyLoad::of_flow) return stopping;
+  stopping.momentum_gap = in_full ? settled_wake : developing_wake;
+  if (in_full) stopping.most_drag_left = most_drag_left;
   // The drag of an iteration of the flow is that of all bodies.
-  if (settings_.load != CanopyLoad::of_flow || problem.bodies.size() > 1 || state.iterations.empty())
-    return stopping;
-  stopping.reference_drag = state.iterations.back().fluid_force;
-  stopping.near = settings_.drag_tolerance + (window_ ? window_->standard_error : 0);
+  if (in_full && problem.bodies.size() == 1 && !state.iterations.empty()) {
+    stopping.settled_drag = settled_drag;
+    stopping.reference_drag = state.iterations.back().fluid_force;
+    stopping.near = settings_.drag_tolerance + (window_ ? window_->standard_error : 0);
+  }
   return stopping;
 }
 

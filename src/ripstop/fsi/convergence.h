@@ -34,8 +34,9 @@ class SteadyConvergence {
   /// The next flow is to be solved to its residual, or averaged over a whole window: the loop looks converged.
   bool asks_for_full_flow(const SteadyState& state, const SteadyIteration& now) const;
 
-  /// The problem's, and the drag that a flow in full is to be compared with.
-  Stopping stopping(const FlowProblem& problem, const SteadyState& state) const;
+  /// When the flow about the surface as it lies has been advanced enough. Until `in_full` its drag has to settle only: a
+  /// flow need not be solved to its last digit while the shape still moves.
+  Stopping stopping(const FlowProblem& problem, const SteadyState& state, bool in_full) const;
 
   /// Shape and drag have settled, and the ledger closes. `in_full`: the flow of `now` was solved in full.
   bool reached(const SteadyState& state, const SteadyIteration& now, bool in_full) const;
