@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "ripstop/canopy/mirror.h"
 #include "ripstop/cloth/cloth.h"
 #include "ripstop/flow/flow.h"
 #include "ripstop/flow/unsteady.h"
@@ -79,7 +80,8 @@ class SteadySolver {
   std::unique_ptr<Flow> flow_;
   ClothPtr cloth_;
   std::vector<Cell> cells_;
-  std::vector<double> area_;  // of the cells as cut [m2]
+  std::vector<double> area_;            // of the cells as cut [m2]
+  std::optional<MirrorImages> images_;  // of the nodes, where a quarter of the box is solved
   SteadyConvergence convergence_;
   ThreadTeam team_;
   FlowRecord record_;
