@@ -16,6 +16,8 @@ constexpr double settled_drag = 5e-4;
 constexpr double developing_wake = 0.04, settled_wake = 0.015;
 // Share of the drag by which a flow in full may still change: half of the default tolerance on its change.
 constexpr double most_drag_left = 2.5e-3;
+// Of the tolerance on the change of drag: beyond, a drag that has settled but is not known in full does not come back.
+constexpr double far_away = 2;
 
 }  // namespace
 
@@ -91,7 +93,7 @@ Stopping SteadyConvergence::stopping(const FlowProblem& problem, const SteadySta
   if (in_full && problem.bodies.size() == 1 && !state.iterations.empty()) {
     stopping.settled_drag = settled_drag;
     stopping.reference_drag = state.iterations.back().fluid_force;
-    stopping.near = settings_.drag_tolerance + (window_ ? window_->standard_error : 0);
+    stopping.near = far_away * settings_.drag_tolerance + (window_ ? window_->standard_error : 0);
   }
   return stopping;
 }
