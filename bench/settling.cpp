@@ -10,13 +10,10 @@
 #include <ctime>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "ripstop/canopy/mirror.h"
 #include "ripstop/case/assemble.h"
-#include "ripstop/core/error.h"
 #include "ripstop/flow/steady.h"
 #include "ripstop/fsi/transfer.h"
 #include "ripstop/mesh/mesh.h"
@@ -67,10 +64,7 @@ void settle(const std::filesystem::path& run, int iterations, int every) {
   const Settings settings = settings_of_run(run);
   const SteadyProblem steady = steady_problem(settings);
   FlowProblem problem = steady.flow;
-  const std::optional<MirrorImages> images = mirror_images(steady.mesh);
-  if (!images) throw Error(ExitCode::usage, run.string() + ": the canopy has no planes of symmetry");
-  problem.bodies[0].surface =
-      surface_of(cells_of(steady.mesh), mean_of_images(*images, final_state(run).shape));
+  problem.bodies[0].surface = surface_of(cells_of(steady.mesh), final_state(run).shape);
   Settling full(settings, problem, false), quarter(settings, problem, true);
   for (int done = every; done <= iterations; done += every) {
     std::vector<std::string> row = {fmt::format("{}", done)};

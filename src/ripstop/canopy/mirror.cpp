@@ -100,16 +100,6 @@ std::optional<MirrorImages> mirror_images(const Mesh& mesh) {
   return images;
 }
 
-std::vector<Vec3> mean_of_images(const MirrorImages& images, std::vector<Vec3> positions) {
-  for (const std::size_t plane : {0u, 1u}) {
-    const std::vector<Vec3> given = positions;
-    for (std::size_t node = 0; node < given.size(); ++node)
-      positions[node] =
-          0.5 * (given[node] + in_mirror(given[static_cast<std::size_t>(images[plane][node])], plane));
-  }
-  return positions;
-}
-
 double mirror_gap(const Mesh& mesh, const MirrorImages& images, const std::vector<Vec3>& x) {
   double worst = 0;
   for (const Patch& patch : mesh.patches)

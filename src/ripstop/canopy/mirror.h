@@ -16,9 +16,6 @@ using MirrorImages = std::array<std::vector<int>, 2>;
 /// the lattice, and the laws of crossing lattice springs.
 std::optional<MirrorImages> mirror_images(const Mesh& mesh);
 
-/// Mean of the positions and their three images.
-std::vector<Vec3> mean_of_images(const MirrorImages& images, std::vector<Vec3> positions);
-
 /// Largest distance of a node of the cloth from the image of its image [m].
 double mirror_gap(const Mesh& mesh, const MirrorImages& images, const std::vector<Vec3>& positions);
 

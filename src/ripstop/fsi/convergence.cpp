@@ -81,12 +81,13 @@ bool SteadyConvergence::asks_for_full_flow(const SteadyState& state, const Stead
 }
 
 // The load of the flow follows the wake, whose growth the drag alone does not show. If the drag settles away from that of
-// the last iteration, the coupling cannot converge in this one, and the flow is not solved in full.
+// the last iteration, the coupling cannot converge in this one, and the flow is not solved in full. A flow without a mean
+// in place of its last field has to meet its residual alone.
 Stopping SteadyConvergence::stopping(const FlowProblem& problem, const SteadyState& state,
                                      bool in_full) const {
   Stopping stopping = problem.stopping;
   if (!in_full) stopping.settled_drag = settled_drag;
-  if (settings_.load != CanopyLoad::of_flow) return stopping;
+  if (settings_.load != CanopyLoad::of_flow || stopping.average_over == 0) return stopping;
   stopping.momentum_gap = in_full ? settled_wake : developing_wake;
   if (in_full) stopping.most_drag_left = most_drag_left;
   // The drag of an iteration of the flow is that of all bodies.

@@ -61,7 +61,6 @@ SteadySolver::SteadySolver(SteadyProblem problem, FlowEngine& engine)
     area_.insert(area_.end(), patch.cell_area.begin(),
                  patch.cell_area.begin() + (patch.rows - 1) * patch.columns);
   }
-  if (problem_.flow.quarter) images_ = mirror_images(problem_.mesh);
   require_inside(problem_.flow.grid, problem_.mesh, cells_);
 }
 
@@ -91,9 +90,8 @@ FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) 
   enter_shape_change(now, state.shape, shape);
   enter_cloth(now, state, cloth.cloth, loads, shape, problem_.mesh, *cloth_, cells_);
 
-  // Move the surface, advance the flow. Wrinkles are not mirrored: a quarter of the box has their mean.
-  const std::vector<Vec3> mean = images_ ? mean_of_images(*images_, shape) : shape;
-  const CanopySurface canopy(cells_, mean, problem_.flow.grid);
+  // Move the surface, advance the flow.
+  const CanopySurface canopy(cells_, shape, problem_.flow.grid);
   const bool in_full = convergence_.asks_for_full_flow(state, now);
   flow_->place(0, canopy.triangles);
   FlowField field = advance_flow(state, in_full, now.iteration, report);

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "ripstop/canopy/mirror.h"
 #include "ripstop/cloth/cloth.h"
 #include "ripstop/flow/flow.h"
 #include "ripstop/flow/unsteady.h"
@@ -80,8 +79,7 @@ class SteadySolver {
   std::unique_ptr<Flow> flow_;
   ClothPtr cloth_;
   std::vector<Cell> cells_;
-  std::vector<double> area_;            // of the cells as cut [m2]
-  std::optional<MirrorImages> images_;  // of the nodes, where a quarter of the box is solved
+  std::vector<double> area_;  // of the cells as cut [m2]
   SteadyConvergence convergence_;
   ThreadTeam team_;
   FlowRecord record_;
