@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -61,17 +60,6 @@ void print_unsteady(const UnsteadyResult& unsteady) {
                                     : ""));
 }
 
-std::string flow_text(const SteadyIteration& last) {
-  const std::string left =
-      std::isfinite(last.drag_left)
-          ? fmt::format("; estimated change of drag that is left: {:.2g} %", 100 * last.drag_left)
-          : std::string();
-  if (last.flow_averaged > 0)
-    return fmt::format("did not converge: mean of the last {} iterations, drag {:.2f} +- {:.2f} N{}",
-                       last.flow_averaged, last.fluid_force, last.drag_deviation, left);
-  return (last.flow_converged ? "converged" : "did not converge") + left;
-}
-
 void print_result(const SteadyResult& r, const Settings& resolved, const fs::path& folder) {
   const auto row = print_row;
   print_text("\n{}\n", r.title);
@@ -116,9 +104,9 @@ void print_result(const SteadyResult& r, const Settings& resolved, const fs::pat
                            : "a quarter, mirrored in the planes x = 0 and y = 0 (flow.symmetry)");
   if (r.unsteady) {
     print_unsteady(*r.unsteady);
-  } else {
-    row("flow", flow_text(r.last));
-  }
+  } else if (r.last.flow_averaged > 0)
+    row("flow", fmt::format("did not converge: mean of the last {} iterations, drag {:.2f} +- {:.2f} N",
+                            r.last.flow_averaged, r.last.fluid_force, r.last.drag_deviation));
   row("coupling", fmt::format("{} iterations, {}, elapsed {}", r.iterations,
                               r.converged ? "converged" : "NOT converged", duration_text(r.wall_time)));
   row("files", fmt::format("{} (canopy.png, canopy.pvd, {}, result.json)", folder.string(),
@@ -130,7 +118,7 @@ int dry_run(const SteadyFolderSettings& settings, const Settings& resolved) {
   const fs::path& folder = settings.run.folder;
   check_steady_in(settings, resolved);
   const SteadyProblem problem = steady_problem(resolved);
-  const Cost cost = cost_of(resolved, problem.flow.quarter);
+  const Cost cost = cost_of(resolved);
   // Only the estimate of the built-in engine is reliable, and the length of an unsteady run is not known in
   // advance.
   const bool known = engine_of(resolved).word == engines().front().word && !resolved.flow().unsteady;

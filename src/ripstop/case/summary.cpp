@@ -28,9 +28,9 @@ void count_springs(const Mesh& mesh, CaseSummary& summary) {
 
 CaseSummary summarize(const Settings& resolved) {
   CaseSummary summary;
-  const CanopyMesh mesh = parachute_mesh(resolved);
-  const Cost cost = cost_of(resolved, why_full_box(resolved, mesh, flow_problem(resolved)).empty());
+  const Cost cost = cost_of(resolved);
   summary.memory = cost.memory, summary.core_time = cost.time;
+  const CanopyMesh mesh = parachute_mesh(resolved);
   for (const Patch& patch : mesh.patches) {
     summary.cloth_nodes += patch.rows * patch.columns;
     for (double area : patch.cell_area) summary.cloth_area += area;

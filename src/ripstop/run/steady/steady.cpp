@@ -35,7 +35,6 @@ void take_quality(SteadyResult& r, const Settings& resolved, bool own_mesh) {
   const auto gap = [&](double force) { return std::abs(force / r.ledger.fluid_force - 1); };
   Judgement judgement = judge({{"ledger_gap", std::max(gap(r.ledger.nodal_load), gap(r.ledger.line_tension))},
                                {"momentum_deficit_gap", gap(r.ledger.momentum_deficit)}});
-  if (std::isfinite(r.last.drag_left)) judgement.add(judge({{"drag_left", r.last.drag_left}}).warnings);
   judgement.add(margin_warnings(r.margins));
   judgement.add(warnings_of(resolved, r.stress.strain, own_mesh));
   const bool needs_cells = resolved.coupling().load == CanopyLoad::of_flow;

@@ -97,9 +97,8 @@ void each_member(T& b, Visit&& visit) {
   visit("reference_area_m2", b.reference_area);
   visit("drag_coefficient", b.drag_coefficient);
 }
-/// Of the drag to the weight, relative; of the speed it is half. Half of the default tolerance on the change of drag: the
-/// coupling does not resolve less.
-inline constexpr double payload_tolerance = 2.5e-3;
+/// Of the drag to the weight, relative.
+inline constexpr double payload_tolerance = 1e-3;
 
 /// The numbers of one run: result.json.
 struct SteadyResult {
