@@ -119,9 +119,9 @@ void add_flow_parity(CLI::App& app, int& status) {
                    "Compute only this canopy (default: all); repeatable")
       ->check(CLI::IsMember(names));
   command->footer(
-      "The command fails when drag differs by more than 0.5 % (1 % above 20 m/s with compressible air), or "
-      "velocity or\n"
-      "pressure (L2) by more than 1 % of the stream's speed or dynamic pressure.\n"
+      "The command fails when drag differs by more than 0.5 % (1 % above 20 m/s with compressible air).\n"
+      "It also fails when the rms difference of velocity or pressure is above 1 % of the stream's speed or\n"
+      "dynamic pressure.\n"
       "Examples: ripstop flow-parity --cells 50 50 75 --speed 30\n"
       "          ripstop flow-parity --speed 30 --incompressible --canopy printed");
   add_json_option(*command, options->json);
