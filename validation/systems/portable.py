@@ -21,7 +21,7 @@ TABLE = debian.ROOT / "docs/tables/portable.md"
 HEAD = """# Archive and wheel in empty systems
 
 `make test-portable`, {day}. `ripstop {arguments}` with the case of the README, in roots that debootstrap made (minbase),
-without a network; for the wheel with python3, python3-venv and python3-numpy.
+without a network; for the wheel with python3, python3-venv and python3-numpy, for the packages with those that they depend on.
 
 | file | MB | system | drag, N | iterations | pictures as where it was built |
 |---|---|---|---|---|---|
@@ -98,7 +98,6 @@ def trial_of_packages(options, release, files):
     root, work = empty_root(options, release, "ca-certificates", "packages")
     for file in files:
         shutil.copy(file, work)
-    # Images leave documentation out (dpkg.cfg.d); these roots do not.
     debian.run_in(root, "apt-get install -y -q --no-install-recommends ./*.deb", network=True)
     for file in ("man/man1/ripstop-steady.1.gz", "bash-completion/completions/ripstop", "zsh/vendor-completions/_ripstop",
                  "fish/vendor_completions.d/ripstop.fish", "doc/ripstop/html/index.html"):
