@@ -43,7 +43,8 @@ TEST(Fastest, HasTheSpeedAtWhichTheWeakestMemberIsAtItsLimitByEveryMethod) {
     ASSERT_TRUE(safe.speed) << safe.method;
     LoadRequest there = request();
     there.speed = *safe.speed;
-    for (const MethodLoad& m : run_load(resolved, there).stages[0].methods) {
+    const LoadResult loaded = run_load(resolved, there);
+    for (const MethodLoad& m : loaded.stages[0].methods) {
       if (m.method == safe.method) {
         EXPECT_NEAR(m.load / safe.load, 1, 1e-9) << m.method;
         EXPECT_NEAR(*weakest(load_margins(resolved, m.load))->used, 1, 3e-3) << m.method;
@@ -109,7 +110,8 @@ TEST(Fastest, IsAbsentWhereTheLowerEndIsBelowTheSlowestDeployment) {
   ASSERT_TRUE(above.design().lowest && above.design().speed);
   LoadRequest there = request();
   there.speed = *above.design().lowest;
-  for (const MethodLoad& m : run_load(flat_circular(), there).stages[0].methods)
+  const LoadResult loaded = run_load(flat_circular(), there);
+  for (const MethodLoad& m : loaded.stages[0].methods)
     if (m.method == infinite_mass_method) {
       EXPECT_LE(m.load * (1 + above.load_uncertainty), 1.4 * at_slowest);
     }
