@@ -273,6 +273,12 @@ Load.filling_exponent: exponent of the drag area over time
 Load.ludtke_exponent: the same exponent in Ludtke's method
 Load.filling_from: source of filling constant and exponent
 Load.stages: loads of each reefed stage and of the open canopy
+Load.design_drag_coefficient: drag coefficient on S0 of the infinite-mass load: at least the handbook's, unless C_x is given
+Load.design_method: method of the design load; empty: a measured load
+Load.required_hardware: strength that each part of the hardware needs under the design load
+HardwareNeed.rated_load_n: required rated load
+HardwareNeed.breaking_load_n: required breaking load of a metal part
+HardwareNeed.textile_breaking_load_n: required breaking load of a textile part
 Load.peak_load_n: peak load of the trajectory
 Load.peak_time_s: its time after line stretch
 Load.record_peak_load_n: peak load of the trajectory with the drag area of a computed opening; None: without one
@@ -321,6 +327,7 @@ BillRow.material: material of the part
 BillRow.is_cloth: whether the part is cloth: sizes are areas [m2], else lengths [m]
 BillRow.finished: size without allowances, of all pieces
 BillRow.cut: size with allowances, of all pieces
+BillRow.cut_each: size with allowances, of one piece
 BillRow.mass_kg: mass as cut, of all pieces
 CutLength.name: name of the part
 CutLength.length_m: length of one piece, finished
@@ -333,6 +340,8 @@ Pattern.hem_allowance_m: hem allowance of the cloth
 Pattern.line_loop_m: extra length of line at each end for its loop
 Pattern.tape_overlap_m: extra length of each tape
 Pattern.bill: bill of materials
+Pattern.hems: length of each hem, of all pieces
+Pattern.line_on_canopy_m: length of each suspension line that is sewn to the canopy
 Pattern.drawings: names of the drawings of the pieces
 # recovery()
 FastestDeployment.height_m: height above sea level
@@ -361,6 +370,12 @@ RecoveryStage.speed_m_s: airspeed at the opening
 RecoveryStage.filling_time_s: filling time t_f
 RecoveryStage.lowest_load_n: smallest opening load of the applicable methods
 RecoveryStage.highest_load_n: largest opening load of the applicable methods
+RecoveryStage.lowest_drag_coefficient: lower end of the range of the drag coefficient in descent on S0
+RecoveryStage.highest_drag_coefficient: upper end of this range
+RecoveryStage.drag_coefficient_range_from: source of this range
+RecoveryStage.lowest_design_load_n: design load with the smallest drag coefficients
+RecoveryStage.highest_design_load_n: design load with the largest drag coefficients
+RecoveryStage.required_hardware: strength that each part of the hardware needs under the design load
 RecoveryStage.fastest_safe_deployment: fastest safe deployment by the method of the design load
 RecoveryStage.descent_rate_m_s: rate of descent at the end of the stage
 RecoveryStage.duration_s: duration of the stage
@@ -374,6 +389,9 @@ Recovery.total_mass_kg: mass that descends, with the parachutes
 Recovery.apogee_m: apogee above the ground
 Recovery.ground_m: height of the ground above sea level
 Recovery.wind_m_s: speed of the wind at its reference height
+Recovery.wind_reference_height_m: height above the ground at which the wind is given
+Recovery.wind_exponent: exponent of the power law of the wind; 0: the same wind at all heights
+Recovery.apogee_wind_m_s: speed of the wind at apogee
 Recovery.stages: one RecoveryStage for each parachute
 Recovery.time_s: time from apogee to the ground
 Recovery.drift_m: drift with the wind from apogee to the ground

@@ -63,6 +63,14 @@ double deployment_height(const Settings& resolved, const LoadRequest& request) {
   return known > request.ground ? known : request.ground + usual_deployment_height;
 }
 
+/// C_D of the infinite-mass load. The C_x of the handbook is the peak over the drag that its C_D in descent gives. With a
+/// smaller coefficient, such as that of a canopy on the axis of the stream, the load would be too low. So at least the
+/// largest C_D of the handbook is used, unless the user gives C_x.
+double design_drag(const Settings& resolved, const LoadRequest& request, double drag_coefficient) {
+  if (request.opening_coefficient) return drag_coefficient;
+  return std::max(drag_coefficient, experience(resolved.parachute()).drag_coefficient.high);
+}
+
 /// Opening and filling coefficients: as asked, else the handbook's of the family.
 void choose_coefficients(const Settings& resolved, const LoadRequest& request, LoadResult& r) {
   const Experience known = experience(resolved.parachute());
@@ -71,6 +79,7 @@ void choose_coefficients(const Settings& resolved, const LoadRequest& request, L
   DragCoefficient drag = opening_drag_coefficient(resolved, request);
   r.drag_coefficient = drag.value, r.drag_source = std::move(drag.from);
   r.drag_uncertainty = drag.uncertainty;
+  r.design_drag_coefficient = design_drag(resolved, request, drag.value);
   r.opening_coefficient = request.opening_coefficient.value_or(known.opening_coefficient);
   r.opening_source = request.opening_coefficient ? "given" : known.opening_source;
   require_positive("opening coefficient C_x", r.opening_coefficient);
@@ -118,7 +127,8 @@ std::string caution_on_filling(const LoadRequest& request, double nominal_diamet
                             "infinite-mass load";
 }
 
-void add_methods(const OpeningConditions& c, double ludtke_exponent, double integral, StageLoads& stage) {
+/// `r`: coefficients that are known already.
+void add_methods(const OpeningConditions& c, const LoadResult& r, double integral, StageLoads& stage) {
   const double a = ballistic_parameter(c);
   const ForceFactor x = force_factor(a, c.exponent);
   const double gravity =
@@ -129,12 +139,13 @@ void add_methods(const OpeningConditions& c, double ludtke_exponent, double inte
       !from_none ? "assumes filling from zero drag area, unlike this stage"
       : !light   ? fmt::format("neglects gravity, which adds {:.0f} % to the speed", 100 * gravity)
                  : stage.outside;
-  stage.methods.push_back({infinite_mass_method, infinite_mass_load(c).load, 0, x.factor > hardly_slowed,
-                           x.factor > hardly_slowed
-                               ? "the speed decreases little during filling"
-                               : "upper bound on a horizontal path: the speed decreases during filling"});
+  stage.methods.push_back(
+      {infinite_mass_method, r.design_drag_coefficient / r.drag_coefficient * infinite_mass_load(c).load, 0,
+       x.factor > hardly_slowed,
+       x.factor > hardly_slowed ? "the speed decreases little during filling"
+                                : "upper bound on a horizontal path: the speed decreases during filling"});
   OpeningConditions by_ludtke = c;
-  by_ludtke.exponent = ludtke_exponent;
+  by_ludtke.exponent = r.ludtke_exponent;
   const OpeningLoad pflanz = pflanz_load(c), ludtke = ludtke_load(by_ludtke);
   stage.methods.push_back({"Pflanz", pflanz.load, pflanz.time, held.empty(), held});
   stage.methods.push_back({"Ludtke", ludtke.load, ludtke.time, held.empty(), held});
@@ -197,7 +208,7 @@ StageLoads begin_stage(const LoadRequest& request, const LoadResult& r, const Fl
   stage.mass_ratio = mass_ratio(c);
   stage.outside = outside_of_methods(c, request, state.speed / air.sound_speed);
   stage.caution = caution_on_filling(request, r.nominal_diameter);
-  add_methods(c, r.ludtke_exponent, request.impulse_integral, stage);
+  add_methods(c, r, request.impulse_integral, stage);
   return stage;
 }
 
@@ -269,27 +280,21 @@ void fly_record(const Settings& resolved, const LoadRequest& request, LoadResult
   compare_methods(stage);
 }
 
-/// The C_x of the handbook belongs to its drag coefficients in descent: the load with the largest of them, where the
-/// coefficient of the parachute is below all of them; else empty.
-std::string with_handbook_drag(const Settings& resolved, const LoadRequest& request, const LoadResult& r) {
-  const KnownRange known = experience(resolved.parachute()).drag_coefficient;
-  if (request.opening_coefficient || !(r.drag_coefficient < known.low)) return "";
-  return fmt::format("; {} N with the C_D of {:.2f} in descent to which the C_x of the handbook belongs",
-                     rounded(r.design_load * known.high / r.drag_coefficient), known.high);
-}
-
 /// The infinite-mass load of the stage with the highest, or that of a method that applies and has more (a payload that is
 /// accelerated on its path), unless a measurement or a computed opening replaces it.
 void choose_design_load(const Settings& resolved, const LoadRequest& request, LoadResult& r) {
   for (const StageLoads& stage : r.stages)
     r.design_load = std::max(r.design_load, stage.methods.front().load);
   r.design_load_from = "infinite mass, C_x C_D S0 q", r.design_method = infinite_mass_method;
+  if (r.design_drag_coefficient > r.drag_coefficient)
+    r.design_load_from +=
+        fmt::format(" with the C_D of {:.2f} in descent to which the C_x of the handbook belongs",
+                    r.design_drag_coefficient);
   for (const StageLoads& stage : r.stages)
     for (const MethodLoad& m : stage.methods)
       if (m.applies && m.load > r.design_load)
         r.design_load = m.load, r.design_method = m.method,
         r.design_load_from = m.method + ", more than infinite mass";
-  if (r.design_method == infinite_mass_method) r.design_load_from += with_handbook_drag(resolved, request, r);
   if (request.measured_load) {
     r.design_load = *request.measured_load, r.design_load_from = "measured, as given";
     r.design_method.clear();

@@ -96,7 +96,8 @@ struct LoadResult {
   double nominal_diameter = 0, reference_area = 0;  // [m], [m2]
   double drag_coefficient = 0, opening_coefficient = 0, filling_constant = 0, filling_exponent = 0;
   double ludtke_exponent = 0;
-  double drag_uncertainty = 0;  // of the drag coefficient, relative
+  double drag_uncertainty = 0;         // of the drag coefficient, relative
+  double design_drag_coefficient = 0;  // C_D of the infinite-mass load: see design_drag() in load.cpp
   std::string drag_source, opening_source, filling_source;
   std::vector<StageLoads> stages;
   double design_load = 0;                  // load for which lines and riser are to be designed [N]
@@ -124,6 +125,7 @@ void each_member(T& r, Visit&& visit) {
   visit("drag_coefficient", r.drag_coefficient);
   visit("drag_coefficient_from", r.drag_source);
   visit("drag_coefficient_uncertainty", r.drag_uncertainty);
+  visit("design_drag_coefficient", r.design_drag_coefficient);
   visit("opening_coefficient", r.opening_coefficient);
   visit("opening_coefficient_from", r.opening_source);
   visit("filling_constant", r.filling_constant);
