@@ -82,7 +82,8 @@ TEST(PatternCommand, ListsTheCutOfEachPieceAndTheHems) {
       ripstop_with({"pattern", examples + "annular/case.toml", "--out", (folder.path / "out").string()});
   EXPECT_EQ(run.code, 0) << run.output;
   // 0.95 m to the confluence and 0.1 m at each end.
-  EXPECT_TRUE(std::regex_search(run.output, std::regex("apex line +[a-z0-9-]+ +12 +1\\.150 m"))) << run.output;
+  EXPECT_TRUE(std::regex_search(run.output, std::regex("apex line +[a-z0-9-]+ +12 +1\\.150 m")))
+      << run.output;
   for (const char* text : {"cut each", "hem, skirt: ", "hem, vent: "})
     EXPECT_NE(run.output.find(text), std::string::npos) << text << "\n" << run.output;
   EXPECT_EQ(read_file(folder.path / "out/bill.csv").find("part,material,count,cut_each,"), 0u);

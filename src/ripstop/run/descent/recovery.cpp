@@ -187,8 +187,7 @@ double design_load_at(DragEnd end, const RecoveryCanopy& canopy, std::size_t i,
   double peak = stage.peak_force;
   for (const Flown& flown : flights)
     peak = high ? std::max(peak, flown.stages[i].peak_force) : std::min(peak, flown.stages[i].peak_force);
-  return std::max(peak,
-                  opening_load(canopy, drag_at(end, canopy), stage.opening, mass, request).design_load);
+  return std::max(peak, opening_load(canopy, drag_at(end, canopy), stage.opening, mass, request).design_load);
 }
 
 RecoveryStage stage_of(const RecoveryCanopy& canopy, std::size_t i, const std::vector<Flown>& flights,

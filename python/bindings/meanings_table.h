@@ -1,0 +1,488 @@
+// Meanings of the attributes of results, of which meanings.cpp makes the docstrings.
+#pragma once
+
+#include <string_view>
+
+namespace ripstop::python {
+
+// A line an attribute, of one class or of every class that has it. Other attributes have the wording of reports.
+inline constexpr std::string_view meanings_table = R"(
+# every result
+title: title of the case
+inputs_hash: hash of all inputs of the result; None: not written to a folder
+warnings: warnings about the result
+usable: False: a quality limit that must hold is exceeded, exit code 4; None: result of an earlier version
+converged: whether all criteria of convergence are met
+nodes: number of nodes of the mesh, lines included
+steps: number of steps
+margins: margins of safety of all members
+wall_time_s: wall time, earlier parts of a resumed run included
+payload_mass_kg: mass of the payload, without the parachute
+parachute_mass_kg: mass of the parachute as cut and sewn
+projected_area_m2: projected area
+max_principal_direction: direction of the maximum principal stress (x, y, z)
+known_drag_coefficient: usual range of the drag coefficient in descent on S0 (Knacke), low and high
+handbook_drag_coefficient: range of the drag coefficient in descent on S0 (Knacke), low and high
+drag_coefficient: drag coefficient on S0
+drag_coefficient_basis: kind of the coefficient: "axial" (steady flow on the axis), "descent" (flight) or "given"
+drag_coefficient_from: source of the drag coefficient
+drag_coefficient_uncertainty: relative uncertainty of the drag coefficient
+axial_drag_coefficient: drag coefficient on S0 in steady flow on the axis
+descent_drag_coefficient: drag coefficient on S0 in descent, from weight and rate of descent
+descent_drag_coefficient_standard_error: standard error of the drag coefficient in descent
+low_pass_hz: cutoff frequency of the low-pass filter
+reference_area_m2: reference area S0
+density_kg_m3: density of the air
+run: folder of the run; empty: in memory
+method: name of the method
+note: reason why the method does not apply, or its assumptions
+applies: whether the case is in the range of the method
+count: number of equal pieces
+folds: number of outer folds around the canopy
+pressure_from: source of the pressure
+canopy_material: material of the cloth
+cloth_material: material of the cloth
+line_material: material of the suspension lines
+gores: number of gores
+line_count: number of suspension lines
+line_length_m: length of a suspension line from the confluence to the skirt
+geometric_porosity: open area over the whole surface as constructed
+flow_cells: number of cells of the flow
+flow_steps: number of steps of the flow
+cloth_steps: number of steps of the cloth
+filling_constant: filling distance n over the nominal diameter
+start_up_s: start-up time, which the means exclude
+line_load_factor: largest load of a line over an equal share of the load
+weakest_member: member with the smallest margin of safety
+height_lost_m: height that the payload has lost
+# calibrate_damping()
+Damping.damping_n_s_m3: damping C_a with the smallest misfit
+Damping.misfit: misfit of the best opening, see docs/theory/inflation.md
+Damping.peak_load_n: peak load of the best opening, low-passed as the measured one
+Damping.measured_peak_n: measured peak load
+Damping.every_step_peak_n: peak load of the best opening over all time steps, unfiltered
+Damping.inflation_time_s: time after which the load of the best opening remains within 10 % of the steady load
+Damping.measured_inflation_time_s: the same of the measurement
+Damping.pressure_pa: uniform pressure difference
+Damping.trials: openings in the order of their computation
+DampingTrial.damping_n_s_m3: damping C_a of the opening
+DampingTrial.misfit: relative deviation of the opening from the measurement
+DampingTrial.peak_n: peak load, low-passed as the measured one
+DampingTrial.peak_time_s: time of this peak
+DampingTrial.every_step_peak_n: peak load over all time steps, unfiltered
+DampingTrial.inflation_time_s: time after which the load remains within 10 % of the steady load
+# check()
+Check.nominal_area_m2: nominal area S0
+Check.computed_area_m2: area of the cloth as cut
+Check.meshed_area_m2: area of the cloth as meshed, a polyhedron inside the cut cloth
+Check.vent_area_m2: area of the vent as constructed
+Check.slot_area_m2: area of slots and gaps as constructed
+Check.mass_kg: masses of the parts
+Check.cloth_nodes: number of nodes of the cloth
+Check.resolved_cloth_nodes: number of cloth nodes for a diameter within 1 %
+Check.springs: number of springs
+Check.smallest_spring_m: rest length of the shortest spring
+Check.smallest_spring_part: part with the shortest spring
+Check.stable_step_s: largest stable time step of the explicit integration
+Check.stable_step_part: part that limits the time step
+Check.printed_step_s: estimate of the stable time step by [NFM]
+Check.flow_spacing_m: widths of the cells of the flow at the canopy (x, y, z)
+Check.memory_bytes: estimated memory of a steady run
+Check.core_time_s: estimated time of a steady run on one core
+Check.blockage: disk of the undeformed canopy over the cross section of the domain or the nozzle
+Check.speed_m_s: speed of the free stream
+PartMasses.cloth: mass of the cloth [kg]
+PartMasses.tape: mass of the tape [kg]
+PartMasses.lines: mass of the suspension lines [kg]
+PartMasses.riser: mass of the riser [kg]
+PartMasses.total: mass of the parachute as cut and sewn [kg]
+# errors
+Problem.file: file; empty: none
+Problem.line: line in the file, from 1; 0: none
+Problem.column: column in the line, from 1; 0: none
+Problem.option: option of the command line; empty: none
+Problem.key: full name of the key; empty: none
+Problem.value: value as given
+Problem.allowed: allowed values
+Problem.message: whole message of the problem
+# fabric()
+Fabric.pressure_pa: uniform pressure difference over the canopy
+Fabric.pressure_load_n: axial force of the pressure on the cloth
+Fabric.line_tension_n: axial force on the fixed end of the lines
+Fabric.projected_over_nominal: projected diameter over nominal diameter
+Fabric.known_projected_over_nominal: usual range of this ratio in flight (Knacke), low and high
+Fabric.steps: number of relaxation steps
+Fabric.residual: residual force over applied force
+Fabric.cloth_tolerance: residual below which the cloth is in equilibrium
+Fabric.wall_time_s: wall time of the relaxation
+# fit()
+CouponComparison.name: direction of the records
+CouponComparison.r2: coefficient of determination R2 of the virtual coupon to the measured curve
+CouponComparison.strain: strains of both curves
+CouponComparison.measured: measured load per width [N/m]
+CouponComparison.simulated: load per width of the virtual coupon [N/m]
+Estimate.value: the value
+Estimate.standard_error: standard error of the value
+Estimate.low: lower end of the 95 % interval
+Estimate.high: upper end of the 95 % interval
+FitProgress.pulls: number of coupons pulled so far
+FitProgress.shear_fraction: shear fraction xi of the last coupons
+FitProgress.bending_fraction: bending fraction eps of the last coupons
+FitProgress.misfit: misfit of the last coupons, which the fit minimises
+FittedDirection.name: direction: warp, weft, bias, line or tape
+FittedDirection.orientation_deg: angle between load and warp
+FittedDirection.degree: degree of the polynomial
+FittedDirection.r2: coefficient of determination R2 of the fit to the mean curve
+FittedDirection.r2_all_points: coefficient of determination R2 of the fit to the points of all samples
+FittedDirection.tested_strain: largest strain of the fitted records
+FittedDirection.offset: load K_0 at zero strain
+FittedDirection.coefficients: one Estimate for each of K_1..K_n
+FittedDirection.strain: strains of the mean curve
+FittedDirection.load: mean load of the samples at these strains
+FittedDirection.spread: standard deviation of the samples at these strains
+FittedDirection.fit: load of the fit at these strains
+FittedDirection.band_low: lower limit of the pointwise 95 % band of the mean
+FittedDirection.band_high: upper limit of the pointwise 95 % band of the mean
+# descent(), export()
+Descent.drag_area_m2: drag area C_D S0
+Descent.drag_area_uncertainty_m2: numerical uncertainty of the drag area, or the standard error of the flight
+Descent.run_speed_m_s: speed at which the drag area was computed
+Descent.ground_m: height of the ground above sea level
+Descent.heights: rows of the table
+DescentRow.height_m: height above sea level
+DescentRow.speed_m_s: rate of descent at this height
+DescentRow.speed_uncertainty_m_s: its uncertainty, from that of the drag area
+DescentRow.time_to_ground_s: time from this height to the ground; None: at or below the ground
+DescentRow.time_uncertainty_s: its uncertainty
+ExportedParachute.drag_area_m2: drag area C_D S0
+ExportedParachute.drag_area_uncertainty_m2: numerical uncertainty of the drag area, or the standard error of the flight
+ExportedParachute.drag_area_deviation_m2: standard deviation of the drag area for a dispersion analysis
+ExportedParachute.drag_coefficient: drag coefficient on the area named by drag_coefficient_on
+ExportedParachute.drag_coefficient_on: name of the attribute that is its reference area
+ExportedParachute.radius_m: half the projected diameter of the inflated canopy
+ExportedParachute.height_m: height of the inflated canopy from skirt to crown
+ExportedParachute.porosity: open area over the whole surface as constructed
+ExportedParachute.lag_s: filling time: from the trigger to the full drag area
+ExportedParachute.lag_from: source of the filling time
+ExportedParachute.lag_deviation_s: standard deviation of the filling time
+ExportedParachute.mass_kg: mass of the parachute as cut and sewn
+ExportedParachute.line_density_kg_m: mass per length of a line
+ExportedParachute.cloth_density_kg_m2: mass per area of the cloth
+ExportedParachute.packed_diameter_m: diameter of the packed parachute, a cylinder twice as long as wide
+ExportedParachute.packed_length_m: its length
+packed_volume_m3: volume of the packed parachute
+# fly()
+Flight.duration_s: duration of the flight
+Flight.rate_of_descent_m_s: mean vertical speed of the payload after the start-up, positive downwards
+Flight.glide_ratio: mean horizontal speed relative to the wind over the rate of descent
+Flight.mean_oscillation_deg: mean of the peaks of the angle between the vertical and the line from payload to canopy
+Flight.largest_oscillation_deg: largest of these peaks
+Flight.oscillation_period_s: period of the oscillation
+Flight.mean_angle_deg: mean angle between the vertical and the line from payload to canopy
+Flight.mean_angle_of_attack_deg: mean angle between this line and the relative wind
+Flight.largest_angle_of_attack_deg: largest angle between this line and the relative wind
+Flight.axial_speed_m_s: speed at which the drag on the axis equals the weight; None: after an inflation
+Flight.axial_drag_coefficient: drag coefficient on S0 in steady flow on the axis; None: after an inflation
+Flight.density_kg_m3: density of the air at the start
+Flight.largest_line_force_n: largest force of the lines on the payload
+Flight.load_factor: this force over the weight of the payload
+Flight.distance_m: horizontal distance over the ground
+Flight.energy_residual: residual of the energy balance, over the potential energy lost
+Flight.momentum_residual: residual of the momentum balance, over the impulse of the weight
+Flight.handover: state before and after the end of the inflation; None: without one
+FlightProgress.time_s: time of flight so far
+FlightProgress.duration_s: longest time of flight
+FlightProgress.rate_of_descent_m_s: present vertical speed of the payload, positive downwards
+FlightProgress.oscillation_deg: present angle between the vertical and the line from payload to canopy
+Handover.time_s: time since deployment
+Handover.same_flow: whether the flow continues unchanged; False: it is interpolated to the cells of the flight
+Handover.speed_m_s: speed of the payload
+Handover.path_angle_deg: angle of its path below the horizon
+Handover.opening_peak_load_n: peak load of the inflation
+Handover.load_before_n: load on the riser before
+Handover.load_after_n: load on the riser after
+Handover.drag_before_n: drag of the canopy before
+Handover.drag_after_n: drag of the canopy after
+Handover.elastic_energy_before_j: elastic energy of cloth and lines before
+Handover.elastic_energy_after_j: elastic energy of cloth and lines after
+# inflate()
+Inflation.peak_load_n: peak load on the riser after the start-up, unfiltered
+Inflation.peak_time_s: time of this peak since deployment
+Inflation.inflation_time_s: time after which the load remains within 10 % of the steady load
+Inflation.filling_time_s: filling time t_f
+Inflation.settling_time_s: time after which the rms deviation of the load remains below 10 % of the steady load
+Inflation.steady_load_n: steady load; None: not settled, or a payload that decelerates
+Inflation.stages: results of each reefing stage and of the open canopy; None: without reefing
+Inflation.settled: whether the load at the end is steady
+Inflation.impulse_n_s: integral of the load over time
+Inflation.pressure_pa: uniform pressure difference; None: coupled inflation
+Inflation.drag_area_peak_m2: largest drag area C_D S of a time step
+Inflation.added_mass_kg: added mass of the canopy at the end
+Inflation.deployment: deployment before the opening; None: without one
+Inflation.speed_at_end_m_s: speed of the payload at the end; None: fixed end
+Inflation.path_angle_at_end_deg: angle of the path of the payload below the horizon at the end
+Inflation.steady_drag_returned: steady load over the given steady drag
+Inflation.line_damping_s: relative damping of lines and tape as a time
+Inflation.cloth_damping_s: relative damping of the cloth as a time
+Inflation.damping_n_s_m3: absolute damping C_a
+Inflation.quadratic_damping_n_s2_m4: quadratic absolute damping
+Inflation.inner_fold_radius_m: radius of the inner folds of the skirt at the start
+Inflation.outer_fold_radius_m: radius of the outer folds of the skirt at the start
+Inflation.handbook: loads of the same opening by handbook methods, for a payload
+Inflation.energy_residual: largest residual of the energy balance, over the work
+Inflation.momentum_residual: largest residual of the momentum balance of the air in any step, over the peak load
+Inflation.step_changes: number of reductions of the time step by strain
+Inflation.measured_inflation_time_s: measured time after which the load remains within 10 % of the steady load
+InflationShot.time: time since deployment [s]
+InflationShot.positions: position of every node [m]
+InflationShot.von_mises: von Mises stress of every cloth cell [N/m]
+StageSummary.line_m: length of the reefing line; None: the open canopy
+StageSummary.begin_s: start of the stage
+StageSummary.end_s: end of the stage
+StageSummary.peak_load_n: peak load on the riser in the stage, unfiltered
+StageSummary.peak_time_s: time of this peak
+StageSummary.load_at_end_n: mean load over the last fifth of the stage
+StageSummary.drag_area_at_end_m2: mean drag area C_D S over the last fifth of the stage, in a coupled inflation
+StageSummary.line_peak_n: peak tension of the reefing line
+StageSummary.line_peak_time_s: time of the peak tension of the reefing line
+MethodLoad.load_n: peak load
+MethodLoad.time_s: time of the peak from the start of the stage; 0: not given by the method
+DeploymentPhase.phase: name of the phase
+DeploymentPhase.time_s: start of the phase
+DeploymentPhase.path_m: distance that the payload has travelled
+DeploymentPhase.payload_speed_m_s: airspeed of the payload
+DeploymentPhase.bag_speed_m_s: airspeed of the container
+Deployment.phases: phases in order
+Deployment.snatch_load_n: largest tension at the payload
+Deployment.snatch_time_s: time of this tension
+Deployment.relative_speed_at_line_stretch_m_s: speed difference of payload and container at line stretch
+Deployment.stopped: reason why the canopy does not leave its container; None: it leaves it
+OpeningProgress.time_s: time since deployment
+OpeningProgress.duration_s: end of the opening
+OpeningProgress.load_n: present load on the riser
+OpeningProgress.step_s: time step of the cloth
+# load()
+Load.height_m: height above sea level at line stretch
+Load.opening_coefficient: opening force coefficient C_x
+Load.opening_coefficient_from: source of C_x
+Load.filling_exponent: exponent of the drag area over time
+Load.ludtke_exponent: the same exponent in Ludtke's method
+Load.filling_from: source of filling constant and exponent
+Load.stages: loads of each reefed stage and of the open canopy
+Load.design_drag_coefficient: drag coefficient on S0 of the infinite-mass load: at least the handbook's, unless C_x is given
+Load.design_method: method of the design load; empty: a measured load
+Load.required_hardware: strength that each part of the hardware needs under the design load
+HardwareNeed.rated_load_n: required rated load
+HardwareNeed.breaking_load_n: required breaking load of a metal part
+HardwareNeed.textile_breaking_load_n: required breaking load of a textile part
+Load.peak_load_n: peak load of the trajectory
+Load.peak_time_s: its time after line stretch
+Load.record_peak_load_n: peak load of the trajectory with the drag area of a computed opening; None: without one
+Load.snatch: snatch load; None: without a speed difference
+Load.steady_speed_m_s: rate of steady descent, or speed at impact
+Load.steady_time_s: time after line stretch at which it is reached
+Load.steady_drop_m: height lost until then
+Load.steady_reached: whether the descent becomes steady above the ground
+StageLoads.begin_s: start of the stage after line stretch
+StageLoads.speed_m_s: airspeed at the start of the stage
+StageLoads.height_m: height above sea level at the start of the stage
+StageLoads.drag_area_before_m2: drag area before the stage
+StageLoads.drag_area_m2: drag area at the end of the filling
+StageLoads.filling_time_s: filling time t_f
+StageLoads.ballistic_parameter: ballistic parameter A
+StageLoads.mass_ratio: mass ratio R_m
+StageLoads.methods: load by each method
+StageLoads.highest_n: largest load of the applicable methods
+StageLoads.lowest_n: smallest load of the applicable methods
+StageLoads.spread: difference of both over the mean of the applicable methods
+Snatch.speed_difference_m_s: speed difference of payload and canopy at line stretch
+Snatch.load_n: snatch load
+Snatch.time_s: time from line stretch to the snatch load
+Snatch.stretch_m: extension of lines, riser and hardware at the snatch load
+Snatch.line_load_n: load of one line
+Snatch.line_margin: breaking load of a line over its load
+Snatch.speed_difference_from: source of the speed difference
+Snatch.changes: snatch loads with one part changed
+SnatchChange.part: part that is changed
+SnatchChange.half_length_n: snatch load with half the length; None: a part breaks
+SnatchChange.double_length_n: snatch load with twice the length; None: a part breaks
+SnatchChange.half_stiffness_n: snatch load with half the stiffness; None: a part breaks
+SnatchChange.double_stiffness_n: snatch load with twice the stiffness; None: a part breaks
+Margin.member: member: cloth, tape, a line, riser or a part of the hardware
+Margin.load: largest load of the member, without the safety factor
+Margin.unit: unit of load and strength: N/m for cloth, else N
+Margin.strength: strength of the material as sold; None: not known
+Margin.strength_from: source of the strength
+Margin.knock_down: allowable load over strength
+Margin.used: utilisation: safety factor times load over allowable load
+Margin.margin_of_safety: margin of safety: 1 / utilisation - 1
+Margins.members: one Margin for each member
+# pattern()
+BillRow.part: name of the part
+BillRow.material: material of the part
+BillRow.is_cloth: whether the part is cloth: sizes are areas [m2], else lengths [m]
+BillRow.finished: size without allowances, of all pieces
+BillRow.cut: size with allowances, of all pieces
+BillRow.cut_each: size with allowances, of one piece
+BillRow.mass_kg: mass as cut, of all pieces
+CutLength.name: name of the part
+CutLength.length_m: length of one piece, finished
+Pattern.nominal_area_m2: nominal area S0
+Pattern.cloth_area_m2: area of the cloth, finished
+Pattern.mass_kg: mass as cut, without thread
+Pattern.packing_density_kg_m3: density of the packed parachute
+Pattern.seam_allowance_m: seam allowance of the cloth
+Pattern.hem_allowance_m: hem allowance of the cloth
+Pattern.line_loop_m: extra length of line at each end for its loop
+Pattern.tape_overlap_m: extra length of each tape
+Pattern.bill: bill of materials
+Pattern.hems: length of each hem, of all pieces
+Pattern.line_on_canopy_m: length of each suspension line that is sewn to the canopy
+Pattern.drawings: names of the drawings of the pieces
+# recovery()
+FastestDeployment.height_m: height above sea level
+FastestDeployment.margin_of_safety: margin of safety that every member keeps
+FastestDeployment.load_uncertainty: relative uncertainty of the load, which gives the range of the speeds
+FastestDeployment.load_uncertainty_from: source of this uncertainty
+FastestDeployment.design_method: method of the design load, whose speed is the result
+FastestDeployment.advice: speed to use, and the reason why the methods differ
+FastestDeployment.methods: fastest safe speed by each method
+SafeSpeed.speed_m_s: fastest safe airspeed at line stretch; None: no limit in the searched range
+SafeSpeed.lowest_m_s: the same with loads larger by their uncertainty
+SafeSpeed.highest_m_s: the same with loads smaller by their uncertainty
+SafeSpeed.unsafe_at_m_s: lowest speed of the search, if the margin is not kept even there
+SafeSpeed.load_n: load at the fastest safe speed
+SafeSpeed.weakest_member: member that reaches its allowable load first
+SafeSpeed.applies: whether the method applies at this speed
+Ranged.value: the value
+Ranged.low: lower end of its range
+Ranged.high: upper end of its range
+RecoveryStage.stage: "drogue" or "main"
+RecoveryStage.title: title of the case of the parachute
+RecoveryStage.time_s: time of the opening since apogee
+RecoveryStage.height_m: height of the opening above the ground
+RecoveryStage.path_angle_deg: angle of the path below the horizon at the opening
+RecoveryStage.speed_m_s: airspeed at the opening
+RecoveryStage.filling_time_s: filling time t_f
+RecoveryStage.lowest_load_n: smallest opening load of the applicable methods
+RecoveryStage.highest_load_n: largest opening load of the applicable methods
+RecoveryStage.lowest_drag_coefficient: lower end of the range of the drag coefficient in descent on S0
+RecoveryStage.highest_drag_coefficient: upper end of this range
+RecoveryStage.drag_coefficient_range_from: source of this range
+RecoveryStage.lowest_design_load_n: design load with the smallest drag coefficients
+RecoveryStage.highest_design_load_n: design load with the largest drag coefficients
+RecoveryStage.required_hardware: strength that each part of the hardware needs under the design load
+RecoveryStage.fastest_safe_deployment: fastest safe deployment by the method of the design load
+RecoveryStage.descent_rate_m_s: rate of descent at the end of the stage
+RecoveryStage.duration_s: duration of the stage
+RecoveryStage.drift_m: drift with the wind during the stage
+RecoveryStage.parachute_mass_kg: mass of the parachute of the stage
+RecoveryStage.bay_length_m: length of the packed parachute in the bay; None: its diameter is not given
+SectionEnergy.mass_kg: mass of the section
+SectionEnergy.energy_j: kinetic energy at landing
+Recovery.mass_kg: mass that descends, without the parachutes
+Recovery.total_mass_kg: mass that descends, with the parachutes
+Recovery.apogee_m: apogee above the ground
+Recovery.ground_m: height of the ground above sea level
+Recovery.wind_m_s: speed of the wind at its reference height
+Recovery.wind_reference_height_m: height above the ground at which the wind is given
+Recovery.wind_exponent: exponent of the power law of the wind; 0: the same wind at all heights
+Recovery.apogee_wind_m_s: speed of the wind at apogee
+Recovery.stages: one RecoveryStage for each parachute
+Recovery.time_s: time from apogee to the ground
+Recovery.drift_m: drift with the wind from apogee to the ground
+Recovery.range_m: horizontal distance along the flight path in still air
+Recovery.landing_speed_m_s: airspeed at landing
+Recovery.energy_j: kinetic energy of the total mass at landing
+Recovery.sections: kinetic energy of each section
+# size()
+family: canopy family: name of its example
+type: value of parachute.type
+Family.drag_coefficient: axial drag coefficient of the example on S0, computed by Ripstop
+Family.speed_m_s: speed of that run
+Family.density_kg_m3: density of the air in that run
+Family.made: command and machine of that run
+Family.flown: drag coefficient in descent; None: not flown
+FlownDrag.drag_coefficient: drag coefficient in descent on S0
+FlownDrag.standard_error: standard error of the coefficient
+FlownDrag.made: command and machine of the flight
+Size.descent_rate_m_s: required rate of descent
+Size.height_m: height above sea level at which this rate is required
+Size.axial_drag_coefficient: axial drag coefficient of the family on S0
+Size.descent_drag_coefficient: drag coefficient of the family in descent on S0; None: not flown
+Size.handbook_diameter_m: nominal diameters that follow from the range of the handbook, largest first
+Size.nominal_area_m2: nominal area S0
+Size.tape_material: material of the tape; "none": without tape
+Size.tape_material_from: reason for the tape
+Size.deployment_speed_m_s: speed at deployment
+Size.opening_load_n: largest opening load of the applicable methods
+Size.opening_load_low_n: smallest opening load of the applicable methods
+Size.checks: runs of the verification, in order
+Size.opening: opening loads by all methods
+SizeCheck.descent_rate_m_s: computed rate of descent
+SizeCheck.descent_rate_standard_error_m_s: its standard error; None: steady run
+# stability()
+Stability.speed_m_s: speed of the free stream
+Stability.projected_diameter_m: projected diameter of the rigid shape
+StabilityAngle.angle_deg: angle of attack
+StabilityAngle.c_t: tangential force coefficient C_T: force along the canopy axis over q S0
+StabilityAngle.c_n: normal force coefficient C_N: force normal to the axis over q S0, positive if it reduces the angle
+StabilityAngle.c_m: moment coefficient C_m about the confluence over q S0 D0, positive if it increases the angle
+StabilityAngle.c_d: drag coefficient C_D: force along the stream over q S0
+StabilityAngle.c_l: lift coefficient C_L: force normal to the stream in the plane of the angle over q S0
+StabilityAngle.c_y: side force coefficient C_Y: force normal to this plane over q S0
+StabilityAngle.time_s: duration of the record; 0: steady flow
+StabilityAngle.steps: number of time steps, or of iterations
+Trim.angle_deg: angle of attack at which C_m = 0
+Trim.standard_error_deg: its standard error; None: angle 0 by symmetry
+Trim.stable: whether dC_m/dalpha is negative
+# steady()
+Steady.speed_m_s: speed of the free stream
+Steady.approach_speed_m_s: mean speed over the disk of the canopy, one diameter upstream of it
+Steady.coupling_iterations: number of coupling iterations
+Steady.ledger: force balance
+Steady.flow_domain: part of the flow domain that was solved
+Steady.unsteady: means of the unsteady wake; None: steady flow
+Steady.payload: equilibrium with the payload; None: the speed is given
+Steady.bodies: loads on rigid bodies upstream; None: without any
+Steady.measured: row of [[measured]] of this speed; None: without one
+BodyResult.name: name of the body in the case
+BodyResult.drag_n: force along the stream
+BodyResult.side_force_n: magnitude of the force across the stream
+BodyResult.moment_n_m: moment about the centre of the aft end (x, y, z)
+BodyResult.reference_area_m2: reference area of the body
+BodyResult.drag_coefficient: drag coefficient on the reference area of the body
+HeldPayload.mass_kg: mass of the payload
+HeldPayload.weight_n: weight of payload and parachute
+HeldPayload.payload_drag_n: drag of the payload
+HeldPayload.drag_over_weight: drag of canopy and payload over the weight
+Measured.drag_n: measured drag; None: not given
+Measured.printed_nonlinear_n: drag of the nonlinear model of the source
+Measured.printed_linear_n: drag of the linear model of the source
+SolvedDomain.part: "full" or "quarter"
+SolvedDomain.reason: reason for the full domain; empty for a quarter
+SolvedDomain.canopy_asymmetry_m: largest deviation of the shape from mirror symmetry
+SteadyIteration.iteration: number of the iteration, from 1
+SteadyIteration.drag_change: change of the drag since the previous iteration, relative
+SteadyIteration.shape_change_m: mean displacement of the nodes since the previous iteration
+SteadyIteration.omega: relative position change, [NFM] Eq. 19
+SteadyIteration.cloth_residual: residual force over applied force of the cloth
+SteadyIteration.flow_iterations: number of iterations of the flow, or of its time steps
+SteadyIteration.flow_residual: largest residual of the flow equations
+SteadyIteration.flow_converged: whether the flow converged
+SteadyIteration.cut_cells: number of cells that the canopy intersects
+SteadyIteration.approach_speed_m_s: mean speed over the disk of the canopy, one diameter upstream of it
+SteadyIteration.wall_time_s: wall time of the iteration
+UnsteadyResult.drag_standard_error_n: standard error of the mean drag; None: not known
+UnsteadyResult.strouhal: Strouhal number of the dominant frequency of the side force, with the inflated diameter
+UnsteadyResult.watched: last averaging window
+Watched.time_s: duration of the record, with its start-up
+Watched.drag_n: mean drag
+Watched.standard_error_n: standard error of the mean drag
+Watched.deviation_n: standard deviation of the drag
+Watched.side_force_n: mean side force (x, y, z)
+Watched.side_force_error_n: standard error of the mean side force (x, y, z)
+Watched.side_force_deviation_n: rms deviation of the side force from its mean
+)";
+
+}  // namespace ripstop::python
