@@ -3,7 +3,8 @@
 
     ripstop recovery main.toml --drogue drogue.toml --mass 22 --apogee 3048 --ground 200 --steady runs/main \\
         --drogue-steady runs/drogue --out runs/recovery
-    ripstop export rocketpy runs/main --trigger 300 --drogue runs/drogue --out parachutes.py
+    ripstop export rocketpy runs/main --trigger 300 --deployment-speed 24 --drogue runs/drogue --drogue-speed 20 \\
+        --out parachutes.py
     /usr/bin/python3 validation/rocketpy/fly.py parachutes.py runs/recovery/result.json
 
 Still air. Needs RocketPy 1.12 or later. The rocket is a mass without drag that begins at apogee.
