@@ -103,7 +103,7 @@ class StudioPage(unittest.TestCase):
     def size_a_case(self):
         self.open()
         self.until("document.getElementById('create').open")
-        self.until("document.querySelector('#create-drawing img').naturalWidth > 0")
+        self.until("document.querySelector('#create-drawing img')?.naturalWidth > 0")
         self.picture("new-case")
         self.click("#create-go")
         self.until("document.querySelector('[data-part=timing]').dataset.file === 'my-canopy.toml'")
@@ -148,7 +148,7 @@ class StudioPage(unittest.TestCase):
         self.click("#notice button")
 
         self.click("[data-view=pattern]")
-        self.until("document.querySelector('[data-piece] img').naturalWidth > 0")
+        self.until("document.querySelector('[data-piece] img')?.naturalWidth > 0")
         self.click("[data-control=save-pattern]")
         self.until("document.querySelector('#view-pattern [role=status]').textContent.includes('saved in')")
         saved = {path.suffix for path in (self.folder / "my-canopy-pattern").iterdir()}

@@ -94,7 +94,7 @@ class Tutorial:
     def open_studio(self):
         self.browser.call("Page.navigate", url=self.studio.address)
         self.until("document.documentElement?.dataset.ready === 'yes'")
-        self.until("document.getElementById('create').open && document.querySelector('#create-drawing img').naturalWidth > 0")
+        self.until("document.getElementById('create').open && document.querySelector('#create-drawing img')?.naturalWidth > 0")
         for label, value in (("Payload mass", "2.4"), ("Descent rate", "5"), ("Largest deployment speed", "20")):
             self.check("the value of the page", f"({self.field(label)}).value === {json.dumps(value)}")
         self.picture("studio-new.png")

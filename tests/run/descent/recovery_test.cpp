@@ -132,10 +132,10 @@ TEST(Recovery, RangesCombineTheEndsOfBothParachutes) {
   const double both =
       first.reference_area * first.descent_drag.high + second.reference_area * second.descent_drag.high;
   EXPECT_NEAR(r.landing_speed.low / terminal_speed(r.total_mass, both, standard_air(200).density), 1, 2e-3);
-  // C_x C_D S0 q at the fastest opening.
+  // C_x C_D S0 q at the fastest opening, with a C_D of at least 0.80, the handbook's.
   const double faster = second.speed.high / second.speed.value;
   EXPECT_NEAR(second.largest_design_load / second.design_load,
-              second.descent_drag.high / 0.68 * faster * faster, 1e-6);
+              second.descent_drag.high / 0.80 * faster * faster, 1e-6);
   EXPECT_LT(second.least_design_load, second.design_load);
   EXPECT_LT(r.time.low, r.time.value);
 }
