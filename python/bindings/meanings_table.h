@@ -1,4 +1,4 @@
-// Meanings of the attributes of results, of which meanings.cpp makes the docstrings.
+// Meanings of the attributes of results, as meanings.cpp reads them for the docstrings.
 #pragma once
 
 #include <string_view>

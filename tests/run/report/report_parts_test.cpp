@@ -69,14 +69,15 @@ TEST_F(ReportParts, TheBillHasARowForEveryRowOfTheBill) {
       0u)
       << table.note;
   ASSERT_EQ(table.rows.size(), bill.rows.size());
-  ASSERT_EQ(table.columns.size(), 7u);
+  ASSERT_EQ(table.columns.size(), 8u);
   EXPECT_EQ(table.columns.back().unit, "g");
   bool cloth = false, other = false;
   for (std::size_t i = 0; i < bill.rows.size(); ++i) {
     const BillRow& row = bill.rows[i];
-    EXPECT_EQ(table.rows[i], (Words{row.part, row.material, std::to_string(row.count),
-                                    fmt::format("{:.3f}", row.finished), fmt::format("{:.3f}", row.cut),
-                                    row.is_cloth ? "m²" : "m", fmt::format("{:.1f}", 1e3 * row.mass)}));
+    EXPECT_EQ(table.rows[i],
+              (Words{row.part, row.material, std::to_string(row.count), fmt::format("{:.3f}", row.cut_each),
+                     fmt::format("{:.3f}", row.finished), fmt::format("{:.3f}", row.cut),
+                     row.is_cloth ? "m²" : "m", fmt::format("{:.1f}", 1e3 * row.mass)}));
     (row.is_cloth ? cloth : other) = true;
   }
   EXPECT_TRUE(cloth && other);
