@@ -271,7 +271,7 @@ Load.filling_from: source of filling constant and exponent
 Load.stages: loads of each reefed stage and of the open canopy
 Load.design_drag_coefficient: drag coefficient on S0 of the infinite-mass load: at least the handbook's, unless C_x is given
 Load.design_method: method of the design load; empty: a measured load
-Load.required_hardware: strength that each part of the hardware needs under the design load
+Load.required_hardware: strength that each part of the hardware needs under the larger of design load and snatch load
 HardwareNeed.rated_load_n: required rated load
 HardwareNeed.breaking_load_n: required breaking load of a metal part
 HardwareNeed.textile_breaking_load_n: required breaking load of a textile part

@@ -267,6 +267,25 @@ TEST(Load, WithASnatchSpeedHasTheSnatchLoad) {
   EXPECT_NEAR(r.snatch->line_load * 12, r.snatch->load, 1e-9 * r.snatch->load);
 }
 
+TEST(Load, WithASnatchLoadAboveTheDesignLoadTheHardwareIsForTheSnatchLoad) {
+  LoadRequest asked = request();
+  const auto warned = [](const LoadResult& r) {
+    return std::any_of(r.warnings.begin(), r.warnings.end(), [](const std::string& text) {
+      return text.find("exceeds the design load") != std::string::npos;
+    });
+  };
+  asked.snatch_speed = 0.1;
+  const LoadResult slow = run_load(resolve(flat_circular()), asked);
+  ASSERT_LT(slow.snatch->load, slow.design_load);
+  EXPECT_FALSE(warned(slow));
+  EXPECT_EQ(slow.hardware.rated, slow.design_load);
+  asked.snatch_speed = 60;
+  const LoadResult fast = run_load(resolve(flat_circular()), asked);
+  ASSERT_GT(fast.snatch->load, fast.design_load);
+  EXPECT_TRUE(warned(fast));
+  EXPECT_EQ(fast.hardware.rated, fast.snatch->load);
+}
+
 // Every estimate is that of flight/opening_load.h, whose own tests have its numbers, in the conditions of its stage.
 TEST(Load, EveryMethodIsAskedInTheConditionsOfItsStage) {
   LoadRequest asked = request(8, 60);

@@ -103,7 +103,7 @@ struct LoadResult {
   double design_load = 0;                  // load for which lines and riser are to be designed [N]
   std::string design_load_from;            // measured, computed or infinite mass
   std::string design_method;               // of a stage, whose load this is; empty: measured
-  HardwareNeed hardware;                   // under the design load
+  HardwareNeed hardware;                   // under the larger of design load and snatch load
   double line_load_factor = 1;             // largest line load over an equal share, of the family
   std::optional<Margins> margins;          // of lines and riser under the design load
   double peak_load = 0, peak_time = 0;     // of the trajectory [N], [s]
