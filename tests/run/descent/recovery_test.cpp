@@ -230,5 +230,14 @@ TEST(Recovery, AMainAboveTheApogeeAndADelayToTheGroundAreRefused) {
             std::string::npos);
 }
 
+TEST(Recovery, SectionsHeavierThanTheRocketAreRefused) {
+  RecoveryRequest asked = request();
+  asked.sections = {0.4 * asked.mass, 0.6 * asked.mass};
+  EXPECT_EQ(run_recovery(canopy(3.5), {}, asked).sections.size(), 2u);
+  asked.sections[0] = asked.mass;
+  EXPECT_NE(refusal_of([&] { run_recovery(canopy(3.5), {}, asked); }, ExitCode::usage).find("sections of"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace ripstop

@@ -7,6 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "ripstop/case/payload.h"
@@ -275,6 +276,13 @@ RecoveryResult run_recovery(const Settings& main, const std::optional<Settings>&
   RecoveryResult r;
   r.title = main.title(), r.mass = r.total_mass = request.mass;
   for (const RecoveryCanopy& canopy : canopies) r.total_mass += canopy.mass;
+  if (const double all = std::accumulate(request.sections.begin(), request.sections.end(), 0.0);
+      all > 1.001 * r.total_mass)
+    throw Error(
+        ExitCode::usage,
+        fmt::format("sections of {} kg in all: must not exceed the mass that descends, {} kg with the "
+                    "parachutes",
+                    rounded(all), rounded(r.total_mass)));
   r.apogee = request.apogee, r.ground = request.ground, r.wind = wind;
   r.apogee_wind = norm(wind_velocity(wind, request.apogee, std::numeric_limits<double>::infinity()));
   for (std::size_t i = 0; i < canopies.size(); ++i)

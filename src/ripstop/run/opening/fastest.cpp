@@ -102,14 +102,14 @@ std::string printed(const std::optional<double>& speed) {
 /// canopy slows a light payload down during a long filling.
 std::string advice_of(const FastestResult& r, double filling_distance) {
   const SafeSpeed& design = r.design();
-  if (design.unsafe_at) return "no speed: the design method keeps the margin at none";
+  if (design.unsafe_at) return "no speed: the weakest part fails even at the rate of descent";
   if (r.design_method == computed_method)
     return fmt::format(
         "{}, the lower end for the computed opening. It is valid for the deployment of that run",
         printed(design.lowest));
   std::string text = fmt::format(
-      "{}, the lower end for infinite mass: the speed does not decrease during filling. It covers every way "
-      "to deploy. The snatch load and the stress of the cloth are excluded",
+      "{}, the lower end for infinite mass: the speed does not decrease during filling. "
+      "A reefing line that fails, the snatch load and the stress of the cloth are excluded",
       printed(design.lowest));
   std::optional<double> low = fastest_deployment, high = 0.0;
   bool others = false;
