@@ -122,8 +122,7 @@ void print_result(const LoadResult& r, const fs::path& folder) {
              r.design_load_from, r.line_load_factor);
   print_text(
       "  Lines, tape, riser and hardware are designed for this load{}. An estimate is the expected load if "
-      "the "
-      "canopy fills as its method assumes.\n",
+      "the canopy fills as its method assumes.\n",
       r.design_method == infinite_mass_method
           ? ", which does not depend on the filling: methods with a smaller load assume a filling distance"
           : "");

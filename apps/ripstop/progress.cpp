@@ -1,7 +1,6 @@
 #include "progress.h"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <utility>
 
 #include "ripstop/core/utf8.h"
+#include "ripstop/core/wrap.h"
 
 namespace ripstop::cli {
 namespace {
@@ -16,9 +16,8 @@ namespace {
 /// As much of a line as the terminal shows without a second line, which the next text could not replace.
 std::string fitting(const std::string& text) {
   constexpr std::size_t usual = 80;
-  winsize size{};
-  const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-  const std::size_t columns = (known ? size.ws_col : usual) - 1;  // the cursor needs the last one
+  const std::size_t known = terminal_columns(STDERR_FILENO);
+  const std::size_t columns = (known > 0 ? known : usual) - 1;  // the cursor needs the last one
   std::size_t end = 0;
   for (std::size_t shown = 0; end < text.size() && shown < columns; ++shown)
     end += first_character(std::string_view(text).substr(end)).length;

@@ -32,7 +32,7 @@ std::string in_units(const std::string& text) {
 }
 
 void print_plain(const std::string& text) {
-  static const std::size_t width = terminal_width(STDOUT_FILENO);
+  static const std::size_t width = wrap_width(STDOUT_FILENO);
   fmt::print("{}", wrapped(in_units(text), width));
 }
 

@@ -17,7 +17,7 @@ namespace ripstop::cli {
 void print_warnings(const std::vector<std::string>& warnings) {
   std::fflush(stdout);
   const std::string word = "warning";
-  const std::size_t width = terminal_width(STDERR_FILENO);
+  const std::size_t width = wrap_width(STDERR_FILENO);
   for (const std::string& warning : warnings) {
     const std::string text = wrapped(word + ": " + visible(warning), width);
     fmt::print(stderr, "{}{}\n", isatty(STDERR_FILENO) ? "\x1b[31m" + word + "\x1b[0m" : word,

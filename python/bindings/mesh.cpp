@@ -111,8 +111,7 @@ void add_methods(py::class_<PyMesh>& type) {
       },
       py::arg("nodes"), py::arg("lengths_m") = py::none(),
       "Adds a suspension line of the line material through nodes.\n\nlengths_m: unstretched, between each "
-      "two "
-      "nodes. None: as at the start.");
+      "two nodes. None: as at the start.");
   type.def(
       "add_tape",
       [](PyMesh& self, const py::object& nodes, const Lengths& lengths) {

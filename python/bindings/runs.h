@@ -50,8 +50,8 @@ struct PySteady {
   std::vector<CellStress> stress;  // likewise
   std::vector<Cell> cells;
   std::string engine;
-  Path folder;            // empty: in memory only
-  bool own_mesh = false;  // of a mesh of the user's own
+  Path folder;                                 // empty: in memory only
+  std::shared_ptr<const CanopyMesh> own_mesh;  // of the user; null: that of the case
 };
 
 struct PyInflation {

@@ -45,11 +45,10 @@ class SteadyListener : public SteadyObserver {
   const std::optional<WarmStart>& start_;
 };
 
-void compute(PySteady& run, SteadyListener& observer, int threads, bool fresh, const Path& warm_from,
-             const std::shared_ptr<const CanopyMesh>& mesh) {
+void compute(PySteady& run, SteadyListener& observer, int threads, bool fresh, const Path& warm_from) {
   const Settings resolved = run.made.settings();
   if (run.folder.empty()) {
-    SteadySolution solution = run_steady(resolved, observer, {threads, {}, {}, mesh});
+    SteadySolution solution = run_steady(resolved, observer, {threads, {}, {}, run.own_mesh});
     run.result = std::move(solution.result);
     run.state = std::move(solution.state);
     run.flow = std::move(solution.flow);
@@ -60,16 +59,15 @@ void compute(PySteady& run, SteadyListener& observer, int threads, bool fresh, c
     if (done.already_finished) run.state = final_state(run.folder);
     run.result.last = run.state.iterations.back();
   }
-  run.cells = cells_of(parachute_mesh(resolved, mesh.get()));
+  run.cells = cells_of(parachute_mesh(resolved, run.own_mesh.get()));
 }
 
 std::unique_ptr<PySteady> steady(const PyCase& given, Callback<SteadyIteration> progress, int threads,
                                  const std::optional<Path>& out, bool fresh,
                                  const std::optional<SteadySource>& start, const OptionalMesh& mesh) {
-  const std::shared_ptr<const CanopyMesh> own = own_mesh(mesh, out.has_value());
   auto run = std::make_unique<PySteady>();
   run->made = given;
-  run->own_mesh = mesh.has_value();
+  run->own_mesh = own_mesh(mesh, out.has_value());
   if (out) run->folder = *out;
   Path warm_from;
   std::optional<WarmStart> warm;
@@ -87,7 +85,7 @@ std::unique_ptr<PySteady> steady(const PyCase& given, Callback<SteadyIteration> 
   Listener listener(std::move(progress));
   SteadyListener observer(listener, *run, warm);
   const py::gil_scoped_release release;
-  compute(*run, observer, threads, fresh, out ? warm_from : Path(), own);
+  compute(*run, observer, threads, fresh, out ? warm_from : Path());
   return run;
 }
 
@@ -193,7 +191,7 @@ void add_steady(py::module_& module) {
     const Settings resolved = run.made.settings();
     ReportRun shown = memory_report("steady", to_json(run.result), resolved);
     shown.plots = iteration_plots(memory_table(run.state.iterations));
-    shown.shape = memory_shape(parachute_mesh(resolved), run.state.shape, run.stress);
+    shown.shape = memory_shape(parachute_mesh(resolved, run.own_mesh.get()), run.state.shape, run.stress);
     return shown;
   });
   type.def_property_readonly(

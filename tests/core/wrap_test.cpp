@@ -23,7 +23,7 @@ TEST(Wrap, DoesNotBreakAWordThatIsLongerThanALine) {
 TEST(Wrap, KeepsTextOutsideOfATerminal) {
   const std::string text = "  name      one two three four five six seven\n";
   EXPECT_EQ(wrapped(text, 0), text);
-  EXPECT_EQ(terminal_width(-1), 0u);
+  EXPECT_EQ(wrap_width(-1), 0u);
 }
 
 }  // namespace

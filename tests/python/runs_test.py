@@ -355,6 +355,7 @@ class OwnMeshes(unittest.TestCase):
         run = ripstop.steady(small.case(coupling__max_iterations=1), mesh=mesh)
         self.assertEqual(run.reference_area_m2, mesh.cloth_area_m2)
         self.assertEqual(len(run.shape), 170)
+        self.assertIn('"square"', run._page())  # the part of this mesh, not of that of the case
         self.assertGreater(run.drag_n, 0)
         for use in (lambda: ripstop.descent(run, 2), lambda: ripstop.export(run), lambda: ripstop.load(small.case(), 2, 20, steady=run),
                     lambda: ripstop.inflate(small.case(), steady=run)):

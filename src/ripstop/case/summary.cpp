@@ -5,6 +5,7 @@
 
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/cost.h"
+#include "ripstop/parachute/own_mesh.h"
 
 namespace ripstop::inline cases {
 namespace {
@@ -31,10 +32,8 @@ CaseSummary summarize(const Settings& resolved) {
   const Cost cost = cost_of(resolved);
   summary.memory = cost.memory, summary.core_time = cost.time;
   const CanopyMesh mesh = parachute_mesh(resolved);
-  for (const Patch& patch : mesh.patches) {
-    summary.cloth_nodes += patch.rows * patch.columns;
-    for (double area : patch.cell_area) summary.cloth_area += area;
-  }
+  for (const Patch& patch : mesh.patches) summary.cloth_nodes += patch.rows * patch.columns;
+  summary.cloth_area = cloth_area(mesh);
   summary.computed_area = computed_area(resolved.parachute());
   summary.nominal_area = nominal_area(resolved.parachute());
   const CanopyFacts canopy = facts(resolved.parachute());

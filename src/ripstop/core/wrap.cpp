@@ -42,11 +42,16 @@ std::string wrapped(const std::string& text, std::size_t width) {
   return done;
 }
 
-std::size_t terminal_width(int descriptor) {
-  constexpr std::size_t least = 60;
+std::size_t terminal_columns(int descriptor) {
   winsize size{};
-  if (isatty(descriptor) == 0 || ioctl(descriptor, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 0;
-  return std::max<std::size_t>(size.ws_col, least);
+  const bool known = isatty(descriptor) != 0 && ioctl(descriptor, TIOCGWINSZ, &size) == 0;
+  return known ? size.ws_col : 0;
+}
+
+std::size_t wrap_width(int descriptor) {
+  constexpr std::size_t least = 60;
+  const std::size_t columns = terminal_columns(descriptor);
+  return columns > 0 ? std::max(columns, least) : 0;
 }
 
 }  // namespace ripstop

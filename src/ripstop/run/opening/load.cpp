@@ -375,11 +375,10 @@ LoadResult run_load(const Settings& resolved, const LoadRequest& request) {
   if (r.snatch && r.snatch->load > r.design_load) {
     r.hardware = hardware_need(r.snatch->load, resolved.margins());
     const auto [snatch, design] = rounded_apart(r.snatch->load, r.design_load, 4);
-    r.warnings.push_back(
-        fmt::format("the snatch load of {} N exceeds the design load of {} N: the required hardware is that "
-                    "of the snatch "
-                    "load, but the margins of lines, riser and hardware are those of the design load",
-                    snatch, design));
+    r.warnings.push_back(fmt::format(
+        "the snatch load of {} N exceeds the design load of {} N: the required hardware is that "
+        "of the snatch load, but the margins of lines, riser and hardware are those of the design load",
+        snatch, design));
   }
   return r;
 }

@@ -51,8 +51,8 @@ std::vector<std::string> body_warnings(const Settings& resolved) {
   for (const FlowBody& body : rigid_bodies(resolved)) {
     warnings.push_back(fmt::format(
         "body.{}: rigid bodies are experimental; alone in the stream the drag of round and long bodies was "
-        "1.1 to "
-        "3.7 times the published value (docs/guide/wake.md), and the loss of drag behind them follows it",
+        "1.1 to 3.7 times the published value (docs/guide/wake.md), and the loss of drag behind them follows "
+        "it",
         body.name));
     const Extent e = extent_of(body.surface);
     const double cell = grid.width(0, grid.cell_at(0, 0.5 * (e.low[0] + e.high[0])));
