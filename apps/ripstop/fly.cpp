@@ -14,6 +14,7 @@
 #include "json_option.h"
 #include "margins.h"
 #include "number_option.h"
+#include "option.h"
 #include "progress.h"
 #include "ripstop/core/error.h"
 #include "ripstop/run/flight/flight_folder.h"
@@ -214,18 +215,17 @@ void add_fly(CLI::App& app, int& status) {
         options->overrides.set.push_back({"flight.start", "inflation", "--deploy"});
       },
       "Compute the coupled inflation with the payload first (flight.start = \"inflation\")");
-  command
-      ->add_option(
-          "--from", options->from,
-          "Run folder of ripstop inflate, coupled and with the payload; the flight continues from its end")
-      ->check(CLI::ExistingDirectory)
+  add_run_folder(
+      *command, "--from", options->from,
+      "Run folder of ripstop inflate, coupled and with the payload; the flight continues from its end")
       ->excludes(deploy);
   add_set_option(*command, options->overrides);
   add_number(*command, "--threads", options->threads, from(1).up_to(key_range("coupling.threads").high),
-             "Number of threads (default: coupling.threads)");
-  command->add_option("--out", options->out, "Run folder (default: runs/<name of the case>-flight)");
+             "Number of threads")
+      ->default_str("coupling.threads");
+  command->add_option("--out", options->out, "Run folder")->default_str("runs/<name of the case>-flight");
   command->add_flag("--fresh", options->fresh,
-                    "Replace the files of Ripstop in the run folder; default: resume the run");
+                    "Replace the files of Ripstop in the run folder; without this option the run resumes");
   add_json_option(*command, options->json);
   command->callback([options, &status] { status = fly(*options); });
 }

@@ -16,6 +16,7 @@
 #include "margins.h"
 #include "number_option.h"
 #include "opening.h"
+#include "option.h"
 #include "progress.h"
 #include "ripstop/case/deployment.h"
 #include "ripstop/core/error.h"
@@ -335,23 +336,20 @@ void add_inflate(CLI::App& app, int& status) {
   add_opening_options(*command, options->opening);
   add_key_option(*command, "--damping", "inflation.damping_n_s_m3",
                  "Damping C_a per unit area of cloth [N s/m3]", options->opening.overrides);
-  command
-      ->add_option_function<std::string>(
-          "--air",
-          [options](const std::string& air) {
-            options->opening.overrides.set.push_back({"inflation.air", air, "--air"});
-          },
-          "Load model: uniform pressure, or flow that is computed in time together with the cloth (case key "
-          "inflation.air)")
-      ->check(CLI::IsMember({"uniform", "coupled"}))
-      ->option_text("uniform|coupled");
-  command->add_option("--out", options->out, "Run folder (default: runs/<name of the case>-inflation)");
+  CLI::Option* load_model = command->add_option_function<std::string>(
+      "--air",
+      [options](const std::string& air) {
+        options->opening.overrides.set.push_back({"inflation.air", air, "--air"});
+      },
+      "Load model: uniform pressure, or flow that is computed in time together with the cloth (case key "
+      "inflation.air)");
+  accept_words(load_model, {"uniform", "coupled"});
+  command->add_option("--out", options->out, "Run folder")->default_str("runs/<name of the case>-inflation");
   command->add_flag("--fresh", options->fresh,
-                    "Replace the files of Ripstop in the run folder; default: resume the run");
-  add_number(
-      *command, "--samples", options->samples, from(2).up_to(1000),
-      "Number of openings with different random perturbations of the folds, for mean and scatter (default: "
-      "one opening as in the case)");
+                    "Replace the files of Ripstop in the run folder; without this option the run resumes");
+  add_number(*command, "--samples", options->samples, from(2).up_to(1000),
+             "Number of openings with different random perturbations of the folds, for mean and scatter")
+      ->default_str("one opening as in the case");
   command->add_flag("--check", options->check,
                     "Fold the canopy, print strain, pressure and time step, and stop");
   add_units_option(*command);

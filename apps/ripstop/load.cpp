@@ -17,6 +17,7 @@
 #include "json_option.h"
 #include "margins.h"
 #include "number_option.h"
+#include "option.h"
 #include "reefed_stage.h"
 #include "ripstop/core/error.h"
 #include "ripstop/flight/atmosphere.h"
@@ -169,28 +170,28 @@ int load(LoadArguments& options) {
 
 void add_coefficients(CLI::App& command, LoadRequest& r) {
   add_number(command, "--drag-coefficient", r.drag_coefficient, key_range("inflation.drag_coefficient"),
-             "Drag coefficient on S0 (default: of the --steady run, else Knacke's)");
+             "Drag coefficient on S0")
+      ->default_str("of the --steady run, else Knacke's");
   add_number(command, "--opening-coefficient", r.opening_coefficient, above(0).up_to(10),
-             "Opening force coefficient C_x (default: of the canopy family)");
-  add_number(
-      command, "--filling-constant", r.filling_constant, above(0).up_to(1000),
-      "Filling distance n in t_f = n D0 / v (default: of the canopy family; below 46 m/s n is multiplied "
-      "by 4.0 v^0.15 / 8, v in ft/s)");
+             "Opening force coefficient C_x")
+      ->default_str("of the canopy family");
+  add_number(command, "--filling-constant", r.filling_constant, above(0).up_to(1000),
+             "Filling distance n in t_f = n D0 / v; that of a family is multiplied by 4.0 v^0.15 / 8 below "
+             "46 m/s (v in "
+             "ft/s)")
+      ->default_str("of the canopy family");
   add_number(command, "--filling-exponent", r.filling_exponent, above(0).up_to(20),
-             "Exponent of the drag area over time (default: of the canopy family)");
+             "Exponent of the drag area over time")
+      ->default_str("of the canopy family");
   add_number(command, "--impulse-integral", r.impulse_integral, above(0).up_to(1),
-             "Mean over peak force during filling, for the momentum-impulse method (default: 0.5)");
-  command.add_option("--steady", r.steady, "Run folder of ripstop steady or fly that provides the drag area")
-      ->check(CLI::ExistingDirectory);
-  command
-      .add_option("--opening", r.opening,
-                  "Run folder of ripstop inflate that provides the drag area over distance")
-      ->check(CLI::ExistingDirectory);
-  command
-      .add_option(
-          "--from", r.filling_from,
-          "Run folder of ripstop inflate that provides filling constant n and exponent of the drag area")
-      ->check(CLI::ExistingDirectory);
+             "Mean over peak force during filling, for the momentum-impulse method");
+  add_run_folder(command, "--steady", r.steady,
+                 "Run folder of ripstop steady or fly that provides the drag area");
+  add_run_folder(command, "--opening", r.opening,
+                 "Run folder of ripstop inflate that provides the drag area over distance");
+  add_run_folder(
+      command, "--from", r.filling_from,
+      "Run folder of ripstop inflate that provides filling constant n and exponent of the drag area");
   add_number(command, "--measured-load", r.measured_load, above(0).up_to(1e8),
              "Opening load measured at this speed and mass, which becomes the design load [N]");
   add_number(command, "--snatch-speed", r.snatch_speed, above(0).up_to(1000),
@@ -198,7 +199,8 @@ void add_coefficients(CLI::App& command, LoadRequest& r) {
   add_number(command, "--packed-area", r.packed_drag_area, above(0).up_to(1e4),
              "Drag area of the packed canopy with its pilot chute, to compute that speed difference [m2]");
   add_number(command, "--payload-area", r.payload_drag_area, from(0).up_to(1e4),
-             "Drag area of the payload [m2] (default: payload.drag_area_m2 of the case)");
+             "Drag area of the payload [m2]")
+      ->default_str("payload.drag_area_m2 of the case");
 }
 
 }  // namespace
@@ -212,8 +214,8 @@ void add_load(CLI::App& app, int& status) {
       "0.1:2\n"
       "         ripstop load examples/flat-circular/case.toml --mass 2.4 --fastest");
   command->add_option("case", options->case_file, "Case file (TOML)")->required();
-  add_number(*command, "--mass", options->mass, key_range("payload.mass_kg"),
-             "Mass of the payload [kg] (default: payload.mass_kg of the case)");
+  add_number(*command, "--mass", options->mass, key_range("payload.mass_kg"), "Mass of the payload [kg]")
+      ->default_str("payload.mass_kg of the case");
   CLI::Option* speed =
       add_number(*command, "--speed", options->speed, above(0).up_to(1000), "Airspeed at line stretch [m/s]");
   CLI::Option* fastest =
@@ -223,16 +225,16 @@ void add_load(CLI::App& app, int& status) {
                      "[hardware] keep their margin of safety, by every method")
           ->excludes(speed);
   add_number(*command, "--margin", options->margin, from(0).up_to(100),
-             "Margin of safety that every member keeps with --fastest (default: 0)")
+             "Margin of safety that every member keeps with --fastest")
       ->needs(fastest);
   const Range height = from(lowest_height).up_to(highest_height);
-  add_number(*command, "--height", options->height, height,
-             "Height above sea level at line stretch [m] (default: flow.height_m if above the ground, else "
-             "1000 m above it)");
+  add_number(*command, "--height", options->height, height, "Height above sea level at line stretch [m]")
+      ->default_str(
+          fmt::format("flow.height_m if above the ground, else {:g} m above it", usual_deployment_height));
   add_number(*command, "--ground", options->request.ground, height,
-             "Height of the ground above sea level [m] (default: 0)");
+             "Height of the ground above sea level [m]");
   add_number(*command, "--angle", options->request.path_angle, from(-90).up_to(90),
-             "Angle of the flight path below the horizon [deg] (default: 90)");
+             "Angle of the flight path below the horizon [deg]");
   command
       ->add_option("--reef", options->reefing,
                    "Reefed stage SHARE:SECONDS: fraction of the full drag area (0 to 1) and duration; "
@@ -241,7 +243,7 @@ void add_load(CLI::App& app, int& status) {
       ->take_all();
   add_coefficients(*command, options->request);
   add_set_option(*command, options->overrides);
-  command->add_option("--out", options->out, "Folder (default: runs/load)");
+  command->add_option("--out", options->out, "Folder");
   add_units_option(*command);
   add_json_option(*command, options->json);
   command->callback([options, &status] { status = load(*options); });

@@ -12,6 +12,7 @@
 #include "commands.h"
 #include "json_option.h"
 #include "number_option.h"
+#include "option.h"
 #include "ripstop/core/error.h"
 
 namespace ripstop::cli {
@@ -79,12 +80,11 @@ void add_photogrammetry(CLI::App& app, int& status) {
       "known,\n"
       "known_m. The distance of the camera is distance_m, or is computed from the known diameters.\n"
       "Example: ripstop photogrammetry validation/ojf/stratos-iv-images.toml --run runs/stratos-iv");
-  command->add_option("image", options->image, "Sizes measured on an image (TOML)")->check(CLI::ExistingFile);
-  command->add_option("--run", options->run, "Run folder of ripstop steady to compare with")
-      ->check(CLI::ExistingDirectory);
-  add_number(*command, "--distance", options->distance, above(0).up_to(1e4),
-             "Distance of the camera [m] (default: as in the file)");
-  command->add_option("--out", options->out, "Folder (default: runs/photogrammetry)");
+  add_existing_file(*command, "image", options->image, "Sizes measured on an image (TOML)")->required();
+  add_run_folder(*command, "--run", options->run, "Run folder of ripstop steady to compare with");
+  add_number(*command, "--distance", options->distance, above(0).up_to(1e4), "Distance of the camera [m]")
+      ->default_str("as in the file");
+  command->add_option("--out", options->out, "Folder");
   add_json_option(*command, options->json);
   command->callback([options, &status] { status = photogrammetry(*options); });
 }

@@ -30,9 +30,8 @@ void add_report(CLI::App& app, int& status) {
       "Example: ripstop report runs/stratos-iv runs/walrus --out both.html");
   command->add_option("runs", options->runs, "Folders of finished runs of steady, inflate or sweep")
       ->required();
-  command->add_option(
-      "--out", options->out,
-      "File (default: report.html in the run folder; for several runs, in the current folder)");
+  command->add_option("--out", options->out, "File")
+      ->default_str("report.html in the run folder; for several runs, in the current folder");
   command->callback([options, &status] {
     fmt::print("{}\n", write_report(options->runs, options->out).string());
     status = 0;

@@ -189,23 +189,26 @@ void add_stability(CLI::App& app, int& status) {
       "         ripstop stability examples/cross/case.toml --angles 0:30:10 --steady runs/cross\n"
       "         ripstop stability examples/cross/case.toml --flow openfoam --ranks 16 --batch slurm");
   command->add_option("case", options->case_file, "Case file (TOML)")->required();
-  command->add_option("--angles", options->angles,
-                      "Angles of attack FROM:TO:STEP, or one angle [deg] (default: 0:40:5)");
+  command->add_option("--angles", options->angles, "Angles of attack FROM:TO:STEP, or one angle [deg]");
   add_number(*command, "--cells-across", options->settings.across, from(8).up_to(100),
-             "Cells of the flow over the projected diameter (default: 16)");
-  command->add_option(
-      "--steady", options->settings.steady,
-      "Folder of a finished steady run of the same parachute, speed and density, which provides the "
-      "shape (default: a run computed in OUT/axis)");
-  command->add_flag("--equilibrium", options->settings.equilibrium,
-                    "The canopy deforms under the mean load of each angle, restrained at vent and confluence "
-                    "(default: rigid, with the shape of the steady run on the axis)");
+             "Cells of the flow over the projected diameter");
+  command
+      ->add_option(
+          "--steady", options->settings.steady,
+          "Folder of a finished steady run of the same parachute, speed and density, which provides the "
+          "shape")
+      ->default_str("a run computed in OUT/axis");
+  command->add_flag(
+      "--equilibrium", options->settings.equilibrium,
+      "The canopy deforms under the mean load of each angle, restrained at vent and confluence; "
+      "without this option it is rigid, with the shape of the steady run on the axis");
   add_case_options(*command, options->overrides);
   add_flow_options(*command, options->overrides);
   command->add_flag("--cold", options->cold, "Start the flow of every angle from the uniform stream");
-  command->add_option("--out", options->settings.run.folder,
-                      "Folder (default: runs/<name of the case>-stability)");
-  command->add_flag("--fresh", options->settings.run.fresh, "Replace finished angles; default: keep them");
+  command->add_option("--out", options->settings.run.folder, "Folder")
+      ->default_str("runs/<name of the case>-stability");
+  command->add_flag("--fresh", options->settings.run.fresh,
+                    "Replace finished angles; without this option they are kept");
   CLI::Option* dry_run =
       command->add_flag("--dry-run", options->dry_run, "Print the folders of all parts, and stop");
   add_json_option(*command, options->json);

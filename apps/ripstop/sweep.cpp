@@ -168,7 +168,8 @@ void add_sweep(CLI::App& app, int& status) {
       ->take_all();
   command->add_flag("--linear", options->overrides.linear,
                     "Linear material model: only the stiffness coefficient K_1 of every material");
-  command->add_option("--out", options->settings.folder, "Folder (default: runs/<name of the case>-sweep)");
+  command->add_option("--out", options->settings.folder, "Folder")
+      ->default_str("runs/<name of the case>-sweep");
   CLI::Option* dry_run =
       command->add_flag("--dry-run", options->dry_run, "Print the runs that would be computed, and stop");
   CLI::Option* only =

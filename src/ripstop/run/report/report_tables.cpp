@@ -157,7 +157,7 @@ ReportTable bill_table(const Settings& resolved) {
                     {}};
   for (const BillRow& row : pattern.bill.rows)
     table.rows.push_back({row.part, row.material, fmt::format("{}", row.count),
-                          fmt::format("{:.3f}", row.cut_each), fmt::format("{:.3f}", row.finished),
+                          fmt::format("{:.3f}", row.cut_each()), fmt::format("{:.3f}", row.finished),
                           fmt::format("{:.3f}", row.cut), row.is_cloth ? "m²" : "m",
                           fmt::format("{:.1f}", 1000 * row.mass)});
   return table;
