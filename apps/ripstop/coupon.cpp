@@ -79,7 +79,7 @@ int compare(const CouponArguments& options, const Fabric& fabric, ThreadTeam& te
 }
 
 void print_result(const CouponResult& r) {
-  fmt::print("{}: {:.4g} mm x {:.4g} mm at {} deg, yarns {:.3g} mm apart, {} nodes\n", r.material,
+  fmt::print("{}: {:.4g} mm x {:.4g} mm at {} deg, lattice spacing {:.3g} mm, {} nodes\n", r.material,
              1e3 * r.coupon.length, 1e3 * r.coupon.width, r.orientation, 1e3 * r.coupon.spacing,
              r.coupon.mesh.node_count());
   fmt::print("{:>9} {:>12} {:>9} {:>12}\n", "strain", "load N/m", "width", "corner peak");

@@ -134,7 +134,8 @@ void add_fit(CLI::App& app, int& status) {
   command->get_option("--decimal")->default_str("decimal of the campaign");
   command->add_flag("--zero-offset", options->zero_offset,
                     "Zero load at zero strain (K_0 = 0), also if the campaign has zero_offset = false");
-  command->add_flag("--no-coupons", options->no_coupons, "Do not fit xi and eps with virtual coupons");
+  command->add_flag("--no-coupons", options->no_coupons,
+                    "Do not fit shear fraction xi and bending fraction eps with virtual coupons");
   add_json_option(*command, options->json);
   add_number(*command, "--threads", options->threads, key_range("coupling.threads"),
              "Number of threads; 0: all cores");

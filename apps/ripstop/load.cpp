@@ -171,7 +171,7 @@ int load(LoadArguments& options) {
 void add_coefficients(CLI::App& command, LoadRequest& r) {
   add_number(command, "--drag-coefficient", r.drag_coefficient, key_range("inflation.drag_coefficient"),
              "Drag coefficient on S0")
-      ->default_str("of the --steady run, else Knacke's");
+      ->default_str("of the --steady run, else inflation.drag_coefficient of the case, else Knacke's");
   add_number(command, "--opening-coefficient", r.opening_coefficient, above(0).up_to(10),
              "Opening force coefficient C_x")
       ->default_str("of the canopy family");

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <system_error>
 
@@ -13,6 +14,7 @@
 #include "ripstop/case/quantity_keys.h"
 #include "ripstop/core/build_info.h"
 #include "ripstop/core/error.h"
+#include "ripstop/core/reasons.h"
 #include "ripstop/core/visible.h"
 #include "stopping.h"
 
@@ -35,7 +37,9 @@ int parse(CLI::App& app, int argc, char** argv, const int& status) {
     return failed(error.code(), message_of(error));
   } catch (const std::bad_alloc&) {
     return failed(ExitCode::resources, "not enough memory: use fewer nodes, cells or simultaneous runs");
-  } catch (const std::system_error& error) {  // of output or of a folder
+  } catch (const std::filesystem::filesystem_error& error) {
+    return failed(ExitCode::io, file_reason(error));
+  } catch (const std::system_error& error) {  // of output
     return failed(ExitCode::io, error.what());
   }
   return status;
@@ -98,7 +102,8 @@ int main(int argc, char** argv) {
   try {
     return ripstop::cli::run(argc, argv);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "ripstop: internal error: %s\n", error.what());
+    std::fprintf(stderr, "ripstop: internal error: %s; please report it with the command and the case\n",
+                 error.what());
   } catch (...) {
     std::fputs("ripstop: internal error\n", stderr);
   }

@@ -25,9 +25,9 @@ CLI::Validator unnamed(std::function<std::string(std::string&)> check) {
 CLI::Option* of_run_folder(CLI::Option* option) {
   return option
       ->check(unnamed([](std::string& folder) {
-        return fs::is_directory(folder)
-                   ? std::string()
-                   : fmt::format("there is no folder \"{}\"; give the folder of a finished run", folder);
+        if (fs::is_directory(folder)) return std::string();
+        return fmt::format("folder \"{}\" {}; give the folder of a finished run", folder,
+                           fs::exists(folder) ? "is a file" : "does not exist");
       }))
       ->type_name("FOLDER");
 }
@@ -167,8 +167,9 @@ CLI::Option* add_existing_file(CLI::App& command, const std::string& option, fs:
                                const std::string& help) {
   return command.add_option(option, file, help)
       ->check(unnamed([](std::string& given) {
-        return fs::exists(given) && !fs::is_directory(given) ? std::string()
-                                                             : fmt::format("there is no file \"{}\"", given);
+        return fs::exists(given) && !fs::is_directory(given)
+                   ? std::string()
+                   : fmt::format("file \"{}\" does not exist", given);
       }))
       ->type_name("FILE");
 }

@@ -80,7 +80,7 @@ void add_photogrammetry(CLI::App& app, int& status) {
       "known,\n"
       "known_m. The distance of the camera is distance_m, or is computed from the known diameters.\n"
       "Example: ripstop photogrammetry validation/ojf/stratos-iv-images.toml --run runs/stratos-iv");
-  add_existing_file(*command, "image", options->image, "Sizes measured on an image (TOML)")->required();
+  add_existing_file(*command, "image", options->image, "Sizes measured on an image (TOML)");
   add_run_folder(*command, "--run", options->run, "Run folder of ripstop steady to compare with");
   add_number(*command, "--distance", options->distance, above(0).up_to(1e4), "Distance of the camera [m]")
       ->default_str("as in the file");

@@ -26,9 +26,9 @@ void add_report(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand(
       "report", "Write finished runs as one HTML file: 3D shape, flow, plots, tables, comparison of runs");
   command->footer(
-      "The commands steady, inflate and sweep write this file into their run folders.\n"
+      "These commands write this file into their run folders.\n"
       "Example: ripstop report runs/stratos-iv runs/walrus --out both.html");
-  command->add_option("runs", options->runs, "Folders of finished runs of steady, inflate or sweep")
+  command->add_option("runs", options->runs, "Folders of finished runs of steady, inflate, fly or sweep")
       ->required();
   command->add_option("--out", options->out, "File")
       ->default_str("report.html in the run folder; for several runs, in the current folder");

@@ -97,13 +97,19 @@ void print_result(const StabilityResult& r, const fs::path& folder) {
   fmt::print(
       "  {:.4g} m/s, {:.4g} kg/m3; coefficients on S0 = {:.4f} m2, D0 = {:.4f} m, C_m about the confluence\n",
       r.speed, r.density, r.reference_area, r.reference_length);
+  fmt::print(
+      "  C_T: force along the axis of the canopy. C_N: force normal to it; positive: it reduces the angle of "
+      "attack.\n"
+      "  C_m: moment; positive: it increases the angle of attack. +- is one standard error.\n");
   fmt::print("{}\n", heading());
   for (const StabilityRow& row : r.rows) fmt::print("{}\n", row_text(row));
   if (r.trims.empty()) fmt::print("  no trim angle within these angles\n");
   for (const Trim& trim : r.trims)
-    fmt::print("  trim at {:.1f}{} deg: {}{}\n", trim.angle,
-               trim.standard_error ? fmt::format(" +- {:.1f}", *trim.standard_error) : "",
-               trim.stable ? "stable" : "unstable", trim.certain ? "" : " (not certain)");
+    fmt::print(
+        "  trim at {:.1f}{} deg: {}{}\n", trim.angle,
+        trim.standard_error ? fmt::format(" +- {:.1f}", *trim.standard_error) : "",
+        trim.stable ? "stable, C_m falls with the angle" : "unstable, C_m rises with the angle",
+        trim.certain ? "" : " (not certain: C_m of a neighbouring angle is within two standard errors of 0)");
   fmt::print("  files: {} (stability.csv, six_dof.csv, stability.svg, report.html, result.json)\n",
              folder.string());
 }

@@ -178,7 +178,7 @@ TEST(Options, AMistakeIsReportedWithTheMeaningOfTheOptionAndAnExample) {
       {"--mass is given more than once", {"size", "--mass", "2", "--mass", "3", "--descent-rate", "5"}},
       {"argument case (Case file (TOML)) is missing", {"steady"}},
       {"did you mean uniform?", {"inflate", stratos, "--air", "unform"}},
-      {"there is no folder \"nowhere\"; give the folder of a finished run",
+      {"folder \"nowhere\" does not exist; give the folder of a finished run",
        {"inflate", stratos, "--steady", "nowhere"}},
       {"--speed and --fastest exclude each other: give one of them",
        {"load", stratos, "--speed", "3", "--fastest"}},

@@ -94,7 +94,7 @@ class Docs(unittest.TestCase):
             text = re.sub(r'"\s*\n\s*"', "", file.read_text())
             if file.name != "option.cpp" and "(default" in text:
                 typed.append(f"{file.name}: a default in a description")
-            typed += [f"{file.name}: {word}" for word in re.findall(r'default_str\("([^"]*)"\)', text) if re.search(r"\d(?![_\w])", word)]
+            typed += [f"{file.name}: {word}" for word in re.findall(r'default_str\("([^"]*)"\)', text) if re.search(r"(?<!\w)[\d.]+(?!\w)", word)]
         self.assertEqual(typed, [])
 
     def test_the_scoreboard_shows_the_present_tables(self):

@@ -89,7 +89,7 @@ LoadSource load_source(const Settings& opening) {
                 std::string(inflation.pressure_pa ? "the pressure is given twice: leave out one"
                                                   : "the pressure is missing: give one") +
                     " of inflation.pressure_pa, inflation.drag_coefficient, --pressure and --steady RUN, or "
-                    "compute the flow (air \"coupled\")");
+                    "compute the flow with inflation.air = \"coupled\"");
   }
   if (inflation.pressure_pa) return {fmt::format("given: {:g} Pa", *inflation.pressure_pa), {}};
   const double speed = opening.flow().speed_m_s;

@@ -259,15 +259,19 @@ struct RunOfFolder {
 RunOfFolder run_of_folder(const fs::path& folder) {
   const std::optional<std::string> text = finished_result(folder);
   if (!text)
-    throw Error(ExitCode::usage,
-                fmt::format("{}: contains no finished run of ripstop steady", folder.string()));
+    throw Error(ExitCode::usage, fmt::format("{0}: contains no finished run of ripstop steady; compute one "
+                                             "with: ripstop steady CASE --out {0}",
+                                             folder.string()));
   return {settings_of_run(folder), steady_result_from_json(*text)};
 }
 
 void require_for_opening(const Settings& resolved, const SteadyResult& result, const std::string& where,
                          const Settings& opening) {
   if (!result.converged)
-    throw Error(ExitCode::bad_data, fmt::format("{}: the steady run has not converged", where));
+    throw Error(
+        ExitCode::bad_data,
+        fmt::format("{}: the steady run has not converged; increase coupling.max_iterations and continue it",
+                    where));
   require_same_parachute(resolved, where, opening);
 }
 
@@ -330,8 +334,9 @@ void require_same_parachute(const Settings& resolved, const std::string& where, 
 SteadyState final_state(const fs::path& folder) {
   const fs::path checkpoint = folder / "checkpoint";
   if (!fs::exists(folder / "result.json"))
-    throw Error(ExitCode::usage,
-                fmt::format("{}: contains no finished run of ripstop steady", folder.string()));
+    throw Error(ExitCode::usage, fmt::format("{0}: contains no finished run of ripstop steady; compute one "
+                                             "with: ripstop steady CASE --out {0}",
+                                             folder.string()));
   if (!fs::exists(checkpoint / "current"))
     throw Error(ExitCode::bad_data, fmt::format("{}: is missing; compute the run again with --fresh",
                                                 (checkpoint / "current").string()));
