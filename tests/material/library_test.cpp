@@ -116,8 +116,8 @@ TEST(Library, EveryLineBreaksWhereItsCurveReachesItsBreakingLoad) {
   }
 }
 
-// Specific strengths [N/tex]: polyethylene (Spectra 900) and aramid (Kevlar 29, Twaron) by Tension Technology, Deep mooring
-// paper, Table 1; nylon 6.6 of high tenacity: commonly quoted, 9.6 gram-force per denier.
+// Specific strengths [N/tex]: polyethylene (Spectra 900) and aramid (Kevlar 29, Twaron) by Tension Technology, Deep
+// mooring paper, Table 1; nylon 6.6 of high tenacity: commonly quoted, 9.6 gram-force per denier.
 TEST(Library, NoMaterialIsStrongerThanItsMassOfFibreAllows) {
   constexpr double most = 0.6;  // of the fibre's strength, in a braid or in the yarns of a weave (assumed)
   constexpr double rounding = 1.005;  // of strengths to 1 N and masses to three digits
