@@ -80,6 +80,7 @@ void print_snatch(const SnatchResult& s) {
   print_text("snatch load {:.1f} N (speed difference {:.3g} m/s: {}), {:.1f} N per line{}\n", s.load,
              s.speed_difference, s.from, s.line_load,
              s.line_margin ? fmt::format(", breaking load / snatch load {:.2f}", *s.line_margin) : "");
+  if (s.riser_margin) print_text("riser: breaking load / snatch load {:.2f}\n", *s.riser_margin);
   const auto cell = [](const std::optional<double>& load) {
     return load ? in_units(fmt::format("{:.1f} N", *load)) : std::string("breaks");
   };

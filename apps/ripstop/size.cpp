@@ -69,6 +69,11 @@ void print_result(const SizeResult& r, const fs::path& file, const fs::path& pag
   row("packed volume", fmt::format("{:.3g} litres", 1000 * r.packed_volume));
   row("DESIGN LOAD", fmt::format("{:.0f} N at {:.3g} m/s: {}; largest line load {:.2f} times the mean",
                                  r.design_load, r.deployment_speed, r.design_load_from, r.line_load_factor));
+  if (r.smallest_margin)
+    row("largest load",
+        fmt::format("{:.0f} N with the uncertainty of {:.0f} % ({}): margin of safety {:+.2f}, {}",
+                    r.largest_load, 100 * r.load_uncertainty, r.load_uncertainty_from, *r.smallest_margin,
+                    r.smallest_margin_member));
   row("applicable methods",
       fmt::format("opening load {:.0f} to {:.0f} N (ripstop load)", r.opening_load_low, r.opening_load));
   if (!r.opening.front().caution.empty()) row("", r.opening.front().caution);

@@ -301,6 +301,7 @@ Snatch.time_s: time from line stretch to the snatch load
 Snatch.stretch_m: extension of lines, riser and hardware at the snatch load
 Snatch.line_load_n: load of one line
 Snatch.line_margin: breaking load of a line over its load
+Snatch.riser_margin: breaking load of the riser over the snatch load; None: there is no riser
 Snatch.speed_difference_from: source of the speed difference
 Snatch.changes: snatch loads with one part changed
 SnatchChange.part: part that is changed
@@ -415,6 +416,10 @@ Size.nominal_area_m2: nominal area S0
 Size.tape_material: material of the tape; "none": without tape
 Size.tape_material_from: reason for the tape
 Size.deployment_speed_m_s: speed at deployment
+Size.load_uncertainty: relative uncertainty of the design load
+Size.load_uncertainty_from: source of this uncertainty
+Size.smallest_margin_of_safety: margin of safety of the weakest member under the largest load
+Size.smallest_margin_member: this member
 Size.opening_load_n: largest opening load of the applicable methods
 Size.opening_load_low_n: smallest opening load of the applicable methods
 Size.checks: runs of the verification, in order

@@ -144,6 +144,30 @@ TEST(Snatch, ChangesWithLengthAndStiffnessOfAShockCord) {
   EXPECT_GT(run_load(flat_circular(), without).snatch->load, 2 * snatch.load);
 }
 
+TEST(Snatch, HasTheRatioOfTheBreakingLoadsOfLinesAndRiserAndWarnsBelowOne) {
+  LoadRequest asked = request();
+  asked.speed = 30, asked.snatch_speed = 8;
+  const LoadResult without = run_load(flat_circular(), asked);
+  EXPECT_NEAR(*without.snatch->line_margin, 3180 / without.snatch->line_load, 1e-9);
+  EXPECT_FALSE(without.snatch->riser_margin);
+  const LoadResult with = run_load(flat_circular({{"parachute.riser.length_m", "1"}}), asked);
+  EXPECT_NEAR(*with.snatch->riser_margin, 3180 / with.snatch->load, 1e-9);
+  const auto breaks = [](const LoadResult& r, const char* part) {
+    return std::any_of(r.warnings.begin(), r.warnings.end(), [&](const std::string& text) {
+      return text.find(fmt::format("the snatch load breaks {}", part)) == 0;
+    });
+  };
+  EXPECT_EQ(breaks(with, "the riser"), *with.snatch->riser_margin < 1);
+  asked.snatch_speed = 30;
+  const LoadResult fast = run_load(flat_circular({{"parachute.riser.length_m", "1"}}), asked);
+  EXPECT_LT(*fast.snatch->riser_margin, 1);
+  EXPECT_TRUE(breaks(fast, "the riser"));
+  asked.snatch_speed = 1;
+  const LoadResult slow = run_load(flat_circular({{"parachute.riser.length_m", "1"}}), asked);
+  EXPECT_GT(*slow.snatch->riser_margin, 1);
+  EXPECT_FALSE(breaks(slow, "the riser") || breaks(slow, "a line"));
+}
+
 TEST(Snatch, OfTheDeploymentOfTheCaseIsComputedAtTheSpeedOfTheRequest) {
   LoadRequest asked = request();
   asked.speed = 30;

@@ -8,6 +8,8 @@
 #include "ripstop/case/case.h"
 #include "ripstop/case/resolve.h"
 #include "ripstop/parachute/profile.h"
+#include "ripstop/run/descent/recovery.h"
+#include "ripstop/run/opening/fastest.h"
 
 namespace ripstop {
 namespace {
@@ -131,6 +133,35 @@ TEST(Warnings, AnApexThatIsPulledDownIsWarnedOf) {
   const double below = *std::max_element(heights.begin(), heights.end()) - heights.back();
   EXPECT_NE(warnings[0].find(fmt::format("the vent is {:.3g} m below", below)), std::string::npos)
       << warnings[0];
+}
+
+// Every command that compares loads with this strength has the warning.
+TEST(Warnings, AStrengthAboveThatOfAnyFibreIsWarnedOfByCheckLoadFastestAndRecovery) {
+  const auto with = [](double break_load) {
+    Case given = read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/flat-circular/case.toml");
+    Line cord = suspension_line(given);
+    cord.name = given.parachute.lines.material = "cord", cord.break_load_n = break_load;
+    given.materials.insert_or_assign(cord.name, cord);
+    return resolve(checked(given));
+  };
+  const auto warned = [](const std::vector<std::string>& all) {
+    return std::count_if(all.begin(), all.end(), [](const std::string& text) {
+      return text.find("cord: its strength (breaking load) is 4.5 N/tex") != std::string::npos;
+    });
+  };
+  const Settings strong = with(9000), usual = with(3500);
+  EXPECT_EQ(warned(case_warnings(strong)), 1);
+  EXPECT_EQ(warned(warnings_of(strong, 0)), 1);
+  EXPECT_EQ(warned(warnings_of(strong, 0, true)), 1);
+  LoadRequest load;
+  load.payload_mass = 2.4, load.speed = 20;
+  EXPECT_EQ(warned(run_load(strong, load).warnings), 1);
+  EXPECT_EQ(warned(run_fastest(strong, load).warnings), 1);
+  RecoveryRequest recovery;
+  recovery.mass = 2.4, recovery.apogee = 300;
+  EXPECT_EQ(warned(run_recovery(strong, {}, recovery).warnings), 1);
+  EXPECT_TRUE(case_warnings(usual).empty());
+  EXPECT_TRUE(run_load(usual, load).warnings.empty());
 }
 
 }  // namespace

@@ -24,6 +24,7 @@
 #include "ripstop/run/json.h"
 #include "ripstop/run/report/report.h"
 #include "ripstop/run/report/report_tables.h"
+#include "ripstop/run/steady/warnings.h"
 
 namespace ripstop::inline run {
 namespace {
@@ -224,6 +225,8 @@ RecoveryStage stage_of(const RecoveryCanopy& canopy, std::size_t i, const std::v
   s.packed_volume = parachute_bill(canopy.resolved, {}, request.packing_density).packed_volume;
   if (request.bay_diameter)
     s.bay_length = s.packed_volume / (std::numbers::pi / 4 * *request.bay_diameter * *request.bay_diameter);
+  for (const std::string& text : strain_warnings(canopy.resolved, 0))
+    warnings.push_back(fmt::format("{}: {}", canopy.name, text));
   for (const std::string& text : margin_warnings(s.margins))
     warnings.push_back(fmt::format("{}: {}", canopy.name, text));
   for (const std::string& text :

@@ -11,7 +11,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/run/json.h"
-#include "ripstop/run/opening/handbook.h"
+#include "ripstop/run/steady/warnings.h"
 
 namespace ripstop::inline run {
 namespace {
@@ -158,9 +158,8 @@ FastestResult run_fastest(const Settings& resolved, LoadRequest request, double 
   FastestResult r;
   r.title = fast.title, r.payload_mass = fast.payload_mass, r.parachute_mass = fast.parachute_mass;
   r.height = fast.height, r.margin = margin;
-  r.load_uncertainty = std::hypot(drag.uncertainty, opening_scatter);
-  r.load_uncertainty_from = fmt::format("drag area {:.0f} % ({}), scatter of repeated openings {:.0f} %",
-                                        100 * drag.uncertainty, drag.from, 100 * opening_scatter);
+  LoadUncertainty uncertainty = load_uncertainty(drag);
+  r.load_uncertainty = uncertainty.value, r.load_uncertainty_from = std::move(uncertainty.from);
   const double slowest =
       std::max(slowest_deployment, 1.001 * slowest_opening(r.payload_mass + r.parachute_mass,
                                                            fast.drag_coefficient * fast.reference_area,
@@ -170,6 +169,7 @@ FastestResult run_fastest(const Settings& resolved, LoadRequest request, double 
   const bool computed = fast.record_peak_load && request.reefing.empty();
   r.design_method = computed ? computed_method : infinite_mass_method;
   r.advice = advice_of(r, fast.filling_constant);
+  r.warnings = strain_warnings(resolved, 0);
   if (r.design().unsafe_at)
     r.warnings.push_back(
         fmt::format("no deployment is safe by the method {}: at {:.3g} m/s, about the rate of descent, the "

@@ -19,6 +19,7 @@
 #include "ripstop/run/opening/filling.h"
 #include "ripstop/run/opening/handbook.h"
 #include "ripstop/run/opening/opening_record.h"
+#include "ripstop/run/steady/warnings.h"
 
 namespace ripstop::inline run {
 namespace {
@@ -349,10 +350,17 @@ double slowest_opening(double mass, double drag_area, double height, double path
   return along > 0 ? std::sqrt(along) * terminal_speed(mass, drag_area, standard_air(height).density) : 0;
 }
 
+LoadUncertainty load_uncertainty(const DragCoefficient& drag) {
+  return {std::hypot(drag.uncertainty, opening_scatter),
+          fmt::format("drag area {:.0f} % ({}), scatter of repeated openings {:.0f} %",
+                      100 * drag.uncertainty, drag.from, 100 * opening_scatter)};
+}
+
 LoadResult run_load(const Settings& resolved, const LoadRequest& request) {
   check_request(request);
   LoadResult r;
   r.title = resolved.title();
+  r.warnings = strain_warnings(resolved, 0);
   r.payload_mass = request.payload_mass;
   r.parachute_mass = parachute_mass(resolved);
   r.height = deployment_height(resolved, request);
@@ -372,6 +380,14 @@ LoadResult run_load(const Settings& resolved, const LoadRequest& request) {
   if (!request.opening.empty()) fly_record(resolved, request, r);
   choose_design_load(resolved, request, r);
   r.snatch = snatch_of(resolved, request, r);
+  if (r.snatch)
+    for (const auto& [part, ratio] :
+         {std::pair("a line", r.snatch->line_margin), std::pair("the riser", r.snatch->riser_margin)})
+      if (ratio && *ratio < 1)
+        r.warnings.push_back(
+            fmt::format("the snatch load breaks {}: breaking load / snatch load {:.2f}; use a stronger "
+                        "material, or a longer or softer part",
+                        part, *ratio));
   if (r.snatch && r.snatch->load > r.design_load) {
     r.hardware = hardware_need(r.snatch->load, resolved.margins());
     const auto [snatch, design] = rounded_apart(r.snatch->load, r.design_load, 4);

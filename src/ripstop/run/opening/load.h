@@ -165,6 +165,14 @@ struct DragCoefficient {
 inline constexpr double usual_drag_uncertainty = 0.1;
 DragCoefficient opening_drag_coefficient(const Settings& resolved, const LoadRequest& request);
 
+/// Relative uncertainty of an opening load that is not measured: of the drag area and of the scatter of repeated openings
+/// (opening_scatter), as independent parts.
+struct LoadUncertainty {
+  double value = 0;
+  std::string from;
+};
+LoadUncertainty load_uncertainty(const DragCoefficient& drag);
+
 /// On a path downwards, the speed at line stretch below which the weight along the path exceeds the drag of the open
 /// canopy, so that the payload still accelerates; else 0 [m/s]. Arguments: [kg], [m2], above sea level [m], [deg].
 double slowest_opening(double mass, double drag_area, double height, double path_angle);

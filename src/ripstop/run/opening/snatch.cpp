@@ -10,6 +10,7 @@
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/deployment.h"
 #include "ripstop/flight/snatch.h"
+#include "ripstop/material/strength.h"
 #include "ripstop/run/opening/load.h"
 
 namespace ripstop::inline run {
@@ -84,8 +85,10 @@ std::optional<SnatchResult> snatch_of(const Settings& resolved, const LoadReques
   const Snatch snatch(resolved, request, result);
   const std::vector<SnatchPart> parts = stretching_parts(resolved);
   SnatchResult found = snatch.with(parts);
-  const double strength = resolved.materials().line.break_load_n;
-  if (strength > 0) found.line_margin = strength / found.line_load;
+  const Strength line = strength_of(resolved.materials().line),
+                 riser = strength_of(resolved.materials().riser);
+  if (line.value) found.line_margin = *line.value / found.line_load;
+  if (riser.value && resolved.parachute().riser.length_m > 0) found.riser_margin = *riser.value / found.load;
   for (std::size_t i = 0; i < parts.size(); ++i)
     found.changes.push_back({parts[i].name, snatch.changed(parts, i, 0.5, 1), snatch.changed(parts, i, 2, 1),
                              snatch.changed(parts, i, 1, 0.5), snatch.changed(parts, i, 1, 2)});

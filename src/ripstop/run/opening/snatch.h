@@ -31,7 +31,9 @@ struct SnatchResult {
   double speed_difference = 0, load = 0;  // [m/s], [N]
   std::optional<double> time, stretch;    // [s], [m]; absent: from the deployment in one dimension
   double line_load = 0;                   // of one line [N]
-  std::optional<double> line_margin;      // its break load over that
+  std::optional<double> line_margin;      // its strength over that
+  std::optional<double>
+      riser_margin;  // strength of the riser over the snatch load; absent: there is no riser
   std::string from;
   std::vector<SnatchChange> changes;
 };
@@ -43,6 +45,7 @@ void each_member(T& s, Visit&& visit) {
   visit("stretch_m", s.stretch);
   visit("line_load_n", s.line_load);
   visit("line_margin", s.line_margin);
+  visit("riser_margin", s.riser_margin);
   visit("speed_difference_from", s.from);
   visit("changes", s.changes);
 }

@@ -98,11 +98,16 @@ struct SizeResult {
   double packed_volume = 0;                                                 // [m3]
   double deployment_speed = 0;                                              // [m/s]
   double opening_load = 0, opening_load_low = 0;  // range of the methods that apply [N]
-  double design_load = 0;                         // load for the choice of lines, riser and tape [N]
+  double design_load = 0;                         // as of run_load() [N]
   std::string design_load_from;
+  double load_uncertainty = 0;  // of it, relative
+  std::string load_uncertainty_from;
+  double largest_load = 0;  // with its uncertainty: lines, riser, and tape or hem are chosen for it [N]
+  std::optional<double> smallest_margin;  // of safety, of the weakest member under the largest load
+  std::string smallest_margin_member;
   double line_load_factor = 1;     // largest line load over an equal share
   std::optional<Margins> margins;  // of lines and riser under the design load
-  double line_used = 0;            // utilisation of the line with the highest load
+  double line_used = 0;            // utilisation of the weakest line under the largest load
   double tape_used = 0;            // the same of the tape, or of the hem in its place
   std::vector<SizeCheck> checks;
   std::vector<StageLoads> opening;                   // by every method
@@ -148,6 +153,11 @@ void each_member(T& r, Visit&& visit) {
   visit("opening_load_low_n", r.opening_load_low);
   visit("design_load_n", r.design_load);
   visit("design_load_from", r.design_load_from);
+  visit("load_uncertainty", r.load_uncertainty);
+  visit("load_uncertainty_from", r.load_uncertainty_from);
+  visit("largest_load_n", r.largest_load);
+  visit("smallest_margin_of_safety", r.smallest_margin);
+  visit("smallest_margin_member", r.smallest_margin_member);
   visit("line_load_factor", r.line_load_factor);
   visit("margins", r.margins);
   visit("line_used", r.line_used);

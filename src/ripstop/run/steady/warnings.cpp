@@ -162,11 +162,13 @@ Warnings air_warnings(const Settings& resolved) {
 }
 
 Warnings case_warnings(const Settings& resolved) {
-  return joined({mesh_warnings(resolved), flow_warnings(resolved), shape_warnings(resolved)});
+  return warnings_of(resolved, 0);
 }
 
 Warnings warnings_of(const Settings& resolved, double largest_cloth_strain, bool own_mesh) {
-  return joined({own_mesh ? flow_warnings(resolved) : case_warnings(resolved),
+  const Warnings none;
+  return joined({own_mesh ? none : mesh_warnings(resolved), flow_warnings(resolved),
+                 own_mesh ? none : shape_warnings(resolved),
                  strain_warnings(resolved, largest_cloth_strain)});
 }
 
