@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "commands.h"
+#include "ripstop/run/used_run.h"
+#include "warnings.h"
 
 namespace ripstop::cli {
 namespace {
@@ -35,6 +37,7 @@ void add_report(CLI::App& app, int& status) {
       "File (default: report.html in the run folder; for several runs, in the current folder)");
   command->callback([options, &status] {
     fmt::print("{}\n", write_report(options->runs, options->out).string());
+    print_warnings(warnings_of_shown(options->runs));
     status = 0;
   });
 }

@@ -146,7 +146,7 @@ FlightProblem problem_at(const Settings& flight, double rate, int threads) {
         "canopy is needed",
         *flight.payload().mass_kg, rate, dynamic, weight));
   FlightProblem problem;
-  problem.mesh = parachute_mesh(flight);
+  problem.mesh = mesh_as_cut(flight);
   require_canopy_alone(flight, "a flight");
   problem.air = {flow_problem(flight), flight.flight().courant};
   problem.settings = flight.flight();

@@ -217,6 +217,37 @@ TEST_F(StabilityFolder, OfIterationsThatDoNotSettleHasTheirMeanAndAWarning) {
       << result.warnings[0];
 }
 
+TEST_F(StabilityFolder, ALargeMassDefectIsWarnedOfAndThenNotUsable) {
+  Counter observer;
+  EXPECT_TRUE(result_.usable);
+  EXPECT_EQ(result_.rows[0].mass_defect, 1e-4);
+  for (const auto& [defect, usable] : {std::pair{0.03, true}, std::pair{0.1, false}}) {
+    LeaningFlow::mass_defect = defect;
+    const StabilityResult result =
+        run_stability(given(), {0}, in(usable ? "defect" : "more-defect"), observer);
+    LeaningFlow::mass_defect = 1e-4;
+    EXPECT_EQ(result.usable, usable);
+    const auto told = std::count_if(result.warnings.begin(), result.warnings.end(), [](const auto& text) {
+      return text.find("0 degrees: largest mass defect of the air") == 0;
+    });
+    EXPECT_EQ(told, 1) << defect;
+  }
+}
+
+// The shape is that of the steady run on the axis, and so are its warnings.
+TEST_F(StabilityFolder, CarriesTheWarningsOfTheRunOnTheAxis) {
+  const auto axis = nlohmann::json::parse(read_file(folder_ / "whole/axis/result.json"));
+  const std::string name = (folder_ / "whole/axis").string() + ": ";
+  const auto& all = result_.warnings;
+  int own = 0;
+  for (const auto& text : axis.at("warnings")) {
+    const auto is = [&](const std::string& one) { return one == text || one == name + std::string(text); };
+    EXPECT_EQ(std::count_if(all.begin(), all.end(), is), 1) << text;
+    ++own;
+  }
+  EXPECT_GT(own, 0);
+}
+
 TEST_F(StabilityFolder, RefusesASteadyRunAtAnotherSpeed) {
   Counter observer;
   Case other = given();

@@ -79,6 +79,7 @@ void find_mass(const Settings& resolved, const MeasuredFlightRequest& request, M
 
 void compare_with(const std::filesystem::path& folder, MeasuredFlight& f) {
   const FinishedSteady run = finished_steady(folder);
+  f.notes.insert(f.notes.end(), run.warnings.begin(), run.warnings.end());
   FlightComparison c;
   c.run = folder.string(), c.drag_area = run.result.drag_area;
   c.drag_area_uncertainty = run.drag_uncertainty * c.drag_area;

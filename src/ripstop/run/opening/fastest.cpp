@@ -12,6 +12,7 @@
 #include "ripstop/core/file.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/opening/handbook.h"
+#include "ripstop/run/used_run.h"
 
 namespace ripstop::inline run {
 namespace {
@@ -150,12 +151,13 @@ FastestResult run_fastest(const Settings& resolved, LoadRequest request, double 
   if (request.measured_load)
     throw Error(ExitCode::usage,
                 "a measured load belongs to one speed: leave out --measured-load for the fastest deployment");
+  FastestResult r;
   // A drag area that a run provides is read once.
   const DragCoefficient drag = opening_drag_coefficient(resolved, request);
-  request.drag_coefficient = drag.value;
+  r.warnings = warnings_of_used({request.steady, request.opening, request.filling_from});
+  request.drag_coefficient = drag.value, request.steady.clear();
   const LoadsAtSpeed loads(resolved, request);
   const LoadResult& fast = loads.at(fastest_deployment);
-  FastestResult r;
   r.title = fast.title, r.payload_mass = fast.payload_mass, r.parachute_mass = fast.parachute_mass;
   r.height = fast.height, r.margin = margin;
   r.load_uncertainty = std::hypot(drag.uncertainty, opening_scatter);

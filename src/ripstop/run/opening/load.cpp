@@ -19,6 +19,7 @@
 #include "ripstop/run/opening/filling.h"
 #include "ripstop/run/opening/handbook.h"
 #include "ripstop/run/opening/opening_record.h"
+#include "ripstop/run/used_run.h"
 
 namespace ripstop::inline run {
 namespace {
@@ -357,6 +358,7 @@ LoadResult run_load(const Settings& resolved, const LoadRequest& request) {
   r.parachute_mass = parachute_mass(resolved);
   r.height = deployment_height(resolved, request);
   choose_coefficients(resolved, request, r);
+  r.warnings = warnings_of_used({request.steady, request.opening, request.filling_from});
   const double mass = r.payload_mass + r.parachute_mass, area = r.drag_coefficient * r.reference_area;
   if (request.speed <= slowest_opening(mass, area, r.height, request.path_angle)) {
     const auto [rate, speed] =

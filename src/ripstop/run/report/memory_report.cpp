@@ -17,6 +17,7 @@ ReportRun memory_report(const std::string& kind, const std::string& json, const 
   run.case_file = case_toml(resolved);
   run.tables.push_back(bill_table(resolved));
   if (!run.converged) run.warnings.insert(run.warnings.begin(), "The run did not converge.");
+  add_unusable(run);
   return run;
 }
 
