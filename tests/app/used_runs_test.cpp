@@ -41,12 +41,12 @@ class UsedRuns : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     root_ = std::make_unique<TemporaryFolder>("used-runs");
-    Case given = checked(flat_circular_case(1, 400, 15));
+    Case given = checked(flat_circular_case(1, 500, 15));
     given.inflation.initial_radius_m = 0.1;
     given.inflation.duration_s = 0.01;
     write_file(file(), case_toml(resolve(given)));
     const auto run = ripstop_with({"steady", file(), "--out", in("steady"), "--grid", "16,16,24", "--set",
-                                   "coupling.max_iterations=1", "--set", "flow.max_iterations=30", "--set",
+                                   "coupling.max_iterations=1", "--set", "flow.max_iterations=60", "--set",
                                    "coupling.threads=1"});
     ASSERT_EQ(run.code, 4) << run.output;
     end("steady", {}, true);

@@ -33,9 +33,13 @@ CanopyMesh parachute_mesh(const Settings& resolved, const CanopyMesh* own) {
 
 CanopyMesh mesh_as_cut(const Settings& resolved) {
   CanopyMesh mesh = parachute_mesh(resolved);
-  const double share = parachute_mass(resolved) / std::accumulate(mesh.mass.begin(), mesh.mass.end(), 0.0);
+  const double whole = parachute_mass(resolved), share = whole / (whole - mass_beyond(mesh, resolved));
   for (double& mass : mesh.mass) mass *= share;
   return mesh;
+}
+
+double mass_beyond(const CanopyMesh& mesh, const Settings& resolved) {
+  return parachute_mass(resolved) - std::accumulate(mesh.mass.begin(), mesh.mass.end(), 0.0);
 }
 
 CanopyMesh parachute_mesh(const Design& design, const Settings& resolved) {

@@ -103,19 +103,18 @@ InflationProblem opening_problem(const Settings& opening, const LoadSource& sour
                                  const std::function<void()>& alive) {
   require_axial_stream(opening.flow(), "an opening");
   InflationProblem problem;
-  const bool flies = opening.inflation().air == AirModel::coupled &&
-                     opening.inflation().mass == InflationSettings::Mass::payload;
-  problem.mesh = flies ? mesh_as_cut(opening) : parachute_mesh(opening);
+  problem.mesh = parachute_mesh(opening);
   problem.settings = opening.inflation();
   if (opening.inflation().air == AirModel::coupled) {
     const Cost cost = cost_of(opening);
     require_memory(cost.memory, fmt::format("a coupled inflation with {:.3g} cells", cost.cells));
     require_canopy_alone(opening, "an opening");
     problem.air = AirProblem{flow_problem(opening), opening.inflation().courant};
-    if (flies)
-      problem.air->payload =
-          Payload{*opening.payload().mass_kg, standard_gravity, opening.inflation().flight_angle_deg,
-                  opening.payload().drag_area_m2, density_below(opening.flow().height_m)};
+    // The inertia of hems and allowances counts at the payload, so that the cloth keeps that of its area.
+    if (opening.inflation().mass == InflationSettings::Mass::payload)
+      problem.air->payload = Payload{*opening.payload().mass_kg + mass_beyond(problem.mesh, opening),
+                                     standard_gravity, opening.inflation().flight_angle_deg,
+                                     opening.payload().drag_area_m2, density_below(opening.flow().height_m)};
     if (const auto deployment = deployment_of(opening)) start_from(*deployment, opening, problem);
     problem.settings.damping_n_s_m3 = problem.settings.quadratic_damping_n_s2_m4 = 0;
   } else {

@@ -209,7 +209,8 @@ TEST_F(StabilityFolder, OfIterationsThatDoNotSettleHasTheirMeanAndAWarning) {
   EXPECT_NEAR(result.rows[0].c_t, 0.7, 1e-9);
   EXPECT_FALSE(result.rows[0].c_t_error);
   EXPECT_FALSE(result.rows[0].enough);
-  ASSERT_EQ(result.warnings.size(), 2u);
+  ASSERT_EQ(result.warnings.size(), 3u);
+  EXPECT_EQ(result.warnings[2].find((folder_ / "whole/axis").string() + ": "), 0u) << result.warnings[2];
   EXPECT_NE(result.warnings[1].find("flow cells across the inflated canopy: 8"), std::string::npos)
       << result.warnings[1];
   EXPECT_NE(result.warnings[0].find("0 degrees: the flow did not reach its residual, the row is a mean"),

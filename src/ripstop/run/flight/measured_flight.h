@@ -55,6 +55,7 @@ struct MeasuredFlight {
   std::vector<DragAreaAtHeight> drag_areas;
   std::vector<FlightComparison> computed;
   std::vector<std::string> notes;
+  std::vector<std::string> warnings;  // of the runs
   SensorRecord height;  // not in result.json
 };
 template <Of<MeasuredFlight> T, class Visit>
@@ -72,6 +73,7 @@ void each_member(T& f, Visit&& visit) {
   visit("drag_areas", f.drag_areas);
   visit("computed", f.computed);
   visit("notes", f.notes);
+  visit("warnings", f.warnings);
 }
 std::string to_json(const MeasuredFlight& flight);
 
