@@ -1,5 +1,5 @@
-// Every command that takes the folder of a run: it repeats the warnings of that run, and neither computes from nor silently
-// shows the numbers of one that must not be used.
+// Every command that takes the folder of a run: it repeats the warnings of that run, and neither computes from nor
+// silently shows the numbers of one that must not be used.
 #include <gtest/gtest.h>
 
 #include <algorithm>

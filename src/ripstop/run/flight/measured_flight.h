@@ -56,7 +56,7 @@ struct MeasuredFlight {
   std::vector<FlightComparison> computed;
   std::vector<std::string> notes;
   std::vector<std::string> warnings;  // of the runs
-  SensorRecord height;  // not in result.json
+  SensorRecord height;                // not in result.json
 };
 template <Of<MeasuredFlight> T, class Visit>
 void each_member(T& f, Visit&& visit) {

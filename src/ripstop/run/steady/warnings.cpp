@@ -93,8 +93,8 @@ std::vector<std::string> linear_law_warnings(const Fabric& cloth) {
                   cloth.name, cfm(law))};
 }
 
-/// Coefficients of porous cells hold on the cells of their calibration: their resistance is one per volume, and the cells
-/// that the cloth cuts have a volume in proportion to their size.
+/// Coefficients of porous cells are valid on the cells of their calibration: their resistance is one per volume, and the
+/// cells that the cloth cuts have a volume in proportion to their size.
 std::vector<std::string> porous_cell_warnings(const Settings& resolved) {
   constexpr double nfm_darcy = 65.98, nfm_forchheimer = 37.45;  // [NFM] Table 3
   const Fabric& cloth = resolved.materials().canopy;
