@@ -15,6 +15,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/run/opening/damping.h"
 #include "ripstop/run/run_folder.h"
+#include "warnings.h"
 
 namespace ripstop::cli {
 namespace {
@@ -61,6 +62,7 @@ int calibrate(const CalibrateArguments& options) {
   else
     fmt::print("C_a = {:.4f} N s/m3, misfit {:.2f} %; {}\n", found.best.damping, 100 * found.best.misfit,
                (folder / "misfit.png").string());
+  print_warnings(result.warnings);
   if (!found.at_edge) return 0;
   fmt::print(stderr,
              "the best C_a is a limit of the searched range {:g} to {:g}: widen it with --from and --to\n",

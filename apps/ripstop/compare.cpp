@@ -75,13 +75,10 @@ int compare_measured(const CompareArguments& options) {
                     table::parse_decimal(options.decimal), options.shift});
   const fs::path& folder = options.settings.folder;
   if (!folder.empty()) write_measured_load(folder, result);
-  if (options.json) {
-    fmt::print("{}", to_json(result));
-    return 0;
-  }
-  print(result);
-  if (!folder.empty()) fmt::print("{} (load.svg, load.png, result.json)\n", folder.string());
-  return 0;
+  return show(result, options.json, [&] {
+    print(result);
+    if (!folder.empty()) fmt::print("{} (load.svg, load.png, result.json)\n", folder.string());
+  });
 }
 
 int compare_finished(const CompareArguments& options) {
@@ -94,11 +91,7 @@ int compare_finished(const CompareArguments& options) {
     write_file(folder / "result.json", to_json(result));
     write_report(runs, folder / report_name);
   }
-  if (options.json)
-    fmt::print("{}", to_json(result));
-  else
-    print(result);
-  return 0;
+  return show(result, options.json, [&] { print(result); });
 }
 
 void print(const Comparison& comparison) {
@@ -144,13 +137,10 @@ int compare(CompareArguments& options) {
       compare_models(points, rows, [&](std::size_t i) { return final_state(folder / points[i].folder); });
   write_comparison(folder, comparison);
   seal_sweep(folder);
-  if (options.json) {
-    fmt::print("{}", to_json(comparison));
-    return 0;
-  }
-  print(comparison);
-  fmt::print("{} (profile.svg, profile.png, profile.csv, sweep.csv)\n", (folder / "result.json").string());
-  return 0;
+  return show(comparison, options.json, [&] {
+    print(comparison);
+    fmt::print("{} (profile.svg, profile.png, profile.csv, sweep.csv)\n", (folder / "result.json").string());
+  });
 }
 
 }  // namespace

@@ -78,12 +78,9 @@ int compare(CompareFlightArguments& options) {
   options.request.mass_uncertainty = options.mass_uncertainty_percent / 100;
   const MeasuredFlight flight = compare_flight(read_settings(options.case_file), options.request);
   write_measured_flight(options.out, flight);
-  if (options.json)
-    fmt::print("{}", to_json(flight));
-  else
-    print_result(flight, options.out);
+  const int status = show(flight, options.json, [&] { print_result(flight, options.out); });
   for (const std::string& note : flight.notes) fmt::print(stderr, "ripstop: {}\n", visible_line(note));
-  return 0;
+  return status;
 }
 
 }  // namespace

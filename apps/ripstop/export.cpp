@@ -16,6 +16,7 @@
 #include "reefed_stage.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
+#include "warnings.h"
 
 namespace ripstop::cli {
 namespace {
@@ -57,6 +58,7 @@ int export_run(const ExportArguments& options) {
   for (const std::string& text : options.reefing)
     recovery.stages.back().reefing.push_back(parse_reefed_stage(text));
   const std::string text = text_of(options.format, recovery);
+  for (const ExportedStage& stage : recovery.stages) print_warnings(stage.parachute.warnings);
   if (options.out.empty()) {
     fmt::print("{}", text);
     return 0;

@@ -255,7 +255,6 @@ void print_samples(const SampleSummary& summary, const fs::path& folder) {
   row("finite-mass factor X_1", summary.finite_mass_factor);
   fmt::print("  files                          {} (result.json, sample-001 and following)\n",
              folder.string());
-  print_warnings(summary.warnings);
 }
 
 int sample(const InflateArguments& options, const InflationFolderSettings& settings, const Settings& resolved,
@@ -272,7 +271,7 @@ int sample(const InflateArguments& options, const InflationFolderSettings& setti
     fmt::print("{}", to_json(summary));
   else
     print_samples(summary, settings.run.folder);
-  return 0;
+  return print_result_warnings(summary.warnings, summary.usable);
 }
 
 int run(const InflateArguments& options) {
@@ -295,6 +294,7 @@ int run(const InflateArguments& options) {
     const std::unique_ptr<Opening> solver =
         make_opening(with_engine(resolved, opening_problem(resolved, source, threads)));
     print_start(*solver, solver->start(), source);
+    print_warnings(source.warnings);
     print_warnings(opening_warnings(resolved, *solver));
     return 0;
   }

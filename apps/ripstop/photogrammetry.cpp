@@ -59,13 +59,10 @@ int photogrammetry(const PhotogrammetryArguments& options) {
   if (!options.run.empty()) canopy = computed_canopy(options.run);
   const Photogrammetry result = run_photogrammetry(image, canopy);
   write_photogrammetry(options.out, result);
-  if (options.json) {
-    fmt::print("{}", to_json(result));
-    return 0;
-  }
-  print_result(result);
-  fmt::print("{} (profile.svg, profile.png)\n", (options.out / "result.json").string());
-  return 0;
+  return show(result, options.json, [&] {
+    print_result(result);
+    fmt::print("{} (profile.svg, profile.png)\n", (options.out / "result.json").string());
+  });
 }
 
 }  // namespace

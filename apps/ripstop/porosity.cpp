@@ -21,6 +21,7 @@
 #include "ripstop/run/sweep/sweep_files.h"
 #include "sweep_progress.h"
 #include "table_options.h"
+#include "warnings.h"
 
 namespace ripstop::cli {
 namespace {
@@ -122,7 +123,7 @@ ordered_json line_json(const LineFit& line) {
 
 void write_result(const fs::path& folder, const Settings& resolved, const std::vector<MeasuredDrag>& measured,
                   const PorosityCalibration& found, PorosityKnob knob, const PressureDrop& law,
-                  const PorosityArguments& options, double area) {
+                  const PorosityArguments& options, double area, const std::vector<std::string>& warnings) {
   ordered_json j;
   j["title"] = resolved.title();
   j["knob"] = knob_name(knob);
@@ -155,6 +156,7 @@ void write_result(const fs::path& folder, const Settings& resolved, const std::v
                            {"computed_drag_area_m2", found.computed[i]},
                            {"drag_area_fit", line_json(found.lines[i])}});
   }
+  j["warnings"] = warnings;
   write_file(folder / "result.json", j.dump(2) + "\n");
 }
 
@@ -198,6 +200,8 @@ int calibrate(PorosityArguments& options) {
              folder.string());
   const std::vector<SweepRow> rows = run_and_tell(axes, points, options.settings);
   write_csv(folder / "sweep.csv", sweep_table(axes, points, rows));
+  const std::vector<std::string> warnings = sweep_warnings(points, rows);
+  print_warnings(warnings);
   require_all(points, rows);
 
   const std::vector<PorosityTrial> trials = porosity_trials(resolved, sweep, rows);
@@ -205,7 +209,7 @@ int calibrate(PorosityArguments& options) {
   const PorosityCalibration found = calibrate_porosity(measured, trials, area);
   const PressureDrop law = cloth_of(knob, found.knob, options.thickness);
   write_plots(folder, resolved, measured, trials, found, knob, area);
-  write_result(folder, resolved, measured, found, knob, law, options, area);
+  write_result(folder, resolved, measured, found, knob, law, options, area, warnings);
   seal_sweep(folder);
   if (options.json) {
     fmt::print("{}", read_file(folder / "result.json"));

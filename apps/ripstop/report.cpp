@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "commands.h"
+#include "ripstop/run/used_run.h"
+#include "warnings.h"
 
 namespace ripstop::cli {
 namespace {
@@ -34,6 +36,7 @@ void add_report(CLI::App& app, int& status) {
       ->default_str("report.html in the run folder; for several runs, in the current folder");
   command->callback([options, &status] {
     fmt::print("{}\n", write_report(options->runs, options->out).string());
+    print_warnings(warnings_of_shown(options->runs));
     status = 0;
   });
 }

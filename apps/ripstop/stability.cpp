@@ -137,14 +137,13 @@ int finish(const StabilityArguments& options, const StabilityResult& result,
     fmt::print("{}", to_json(result));
   else
     print_result(result, options.settings.run.folder);
-  std::fflush(stdout);
-  print_warnings(result.warnings);
+  const int status = print_result_warnings(result.warnings, result.usable);
   if (!missing.empty())
     throw Error(ExitCode::io,
                 fmt::format("{}: not there yet; submit again, or repeat ripstop stability without "
                             "--gather",
                             fmt::join(missing, ", ")));
-  return 0;
+  return status;
 }
 
 int stability(StabilityArguments& options) {

@@ -179,7 +179,7 @@ void add_steady(CLI::App& app, int& status) {
   auto options = std::make_shared<SteadyArguments>();
   CLI::App* command = app.add_subcommand("steady", "Compute inflated shape, drag and loads in a steady flow");
   command->footer(
-      "Example: ripstop steady examples/stratos-iv/case.toml --speed 30 --grid 50,50,75\n"
+      "Example: ripstop steady examples/stratos-iv/case.toml --speed 30\n"
       "         ripstop steady examples/stratos-iv/case.toml --flow openfoam --ranks 16 --batch slurm");
   command->add_option("case", options->case_file, "Case file (TOML)")->required();
   add_case_options(*command, options->overrides);

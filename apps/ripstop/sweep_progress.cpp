@@ -108,6 +108,9 @@ void require_all(const std::vector<SweepPoint>& points, const std::vector<SweepR
           fmt::format("{}: the coupling did not converge; raise coupling.max_iterations or loosen its "
                       "tolerances",
                       points[i].folder));
+    if (!rows[i].result.usable.value_or(true))
+      throw Error(ExitCode::not_converged,
+                  fmt::format("{}: the result must not be used, see its warnings", points[i].folder));
   }
 }
 

@@ -110,10 +110,11 @@ InflationProblem opening_problem(const Settings& opening, const LoadSource& sour
     require_memory(cost.memory, fmt::format("a coupled inflation with {:.3g} cells", cost.cells));
     require_canopy_alone(opening, "an opening");
     problem.air = AirProblem{flow_problem(opening), opening.inflation().courant};
+    // The inertia of hems and allowances counts at the payload, so that the cloth keeps that of its area.
     if (opening.inflation().mass == InflationSettings::Mass::payload)
-      problem.air->payload =
-          Payload{*opening.payload().mass_kg, standard_gravity, opening.inflation().flight_angle_deg,
-                  opening.payload().drag_area_m2, density_below(opening.flow().height_m)};
+      problem.air->payload = Payload{*opening.payload().mass_kg + mass_beyond(problem.mesh, opening),
+                                     standard_gravity, opening.inflation().flight_angle_deg,
+                                     opening.payload().drag_area_m2, density_below(opening.flow().height_m)};
     if (const auto deployment = deployment_of(opening)) start_from(*deployment, opening, problem);
     problem.settings.damping_n_s_m3 = problem.settings.quadratic_damping_n_s2_m4 = 0;
   } else {

@@ -12,8 +12,9 @@ namespace ripstop::inline cases {
 
 /// Where the pressure came from.
 struct LoadSource {
-  std::string text;                   // for people: "steady run runs/a: 396.1 N"
-  std::optional<double> steady_drag;  // that the pressure is chosen for [N]
+  std::string text;                        // for people: "steady run runs/a: 396.1 N"
+  std::optional<double> steady_drag;       // that the pressure is chosen for [N]
+  std::vector<std::string> warnings = {};  // of the steady run
 };
 
 /// The case on a mesh that can be folded, with the line segments and the compression that [inflation] gives.

@@ -130,6 +130,7 @@ const std::map<std::string_view, Wording>& known() {  // NOLINT(readability-func
       {"ended_by", {"reason for the end of the flight", ""}},
       {"line_used", {"utilisation of the weakest line under the largest load", ""}},
       {"half_swings", {"number of half-swings", ""}},
+      {"mass_defect", {"largest mass defect of the air in a step, over the mass flux of the stream", ""}},
       {"air_momentum_residual", {"largest residual of the momentum balance of the air, over the weight", ""}},
       {"speeds_tried", {"number of computed speeds", ""}},
       {"oscillation_roundness",

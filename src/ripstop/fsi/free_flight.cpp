@@ -301,7 +301,7 @@ FreeFlightRow FreeFlight::advance(FreeFlightState& state) {
   row.line_force = (m / length) * (v[payload_] - v_before[payload_]) - m * around.on_mass - around.force;
   row.step = length, row.courant = taken.flow.courant;
   row.residual_traction = taken.residual_traction;
-  row.momentum_gap = norm(taken.flow.momentum_gap);
+  row.momentum_gap = norm(taken.flow.momentum_gap), row.mass_defect = taken.flow.mass_defect;
   // A canopy that has just opened may still grow.
   if (problem_.from) state.mouth_at_start = std::max(state.mouth_at_start, row.mouth_area);
   if (row.mouth_area >= collapsed_share * state.mouth_at_start)

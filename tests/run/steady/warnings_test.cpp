@@ -55,6 +55,27 @@ TEST(Warnings, TheAirIsOutsideItsRangesAtHighSpeedAndOnSmallSlowCanopies) {
   only(with("1", tight, {{"parachute.nominal_diameter_m", "0.14"}}), "Reynolds number of");
 }
 
+// 615 N in place of 400 N were printed without a warning.
+TEST(Warnings, CoefficientsOfPorousCellsHoldOnTheCellsOfTheirCalibration) {
+  Case given = warned_case();
+  EXPECT_TRUE(porosity_warnings(resolve(given)).empty());
+  given.flow.cells = {50, 50, 75};
+  const std::vector<std::string> coarse = porosity_warnings(resolve(given));
+  ASSERT_EQ(coarse.size(), 2u);
+  for (const std::string& text : coarse)
+    EXPECT_NE(text.find("calibrated on cells of 0.02 x 0.02 x 0.0267 m"), std::string::npos) << text;
+  const std::vector<std::string> all = case_warnings(resolve(given));
+  EXPECT_NE(std::find(all.begin(), all.end(), coarse[0]), all.end());
+  given.flow.box_m = Vec3{1, 1, 2};  // the same cells again
+  EXPECT_TRUE(porosity_warnings(resolve(given)).empty());
+  Fabric cloth = canopy_fabric(given);
+  cloth.resistance.darcy_1_m2 = 50;
+  given.materials.insert_or_assign(given.parachute.canopy_material, cloth);
+  const std::vector<std::string> own = porosity_warnings(resolve(given));
+  ASSERT_EQ(own.size(), 1u);
+  EXPECT_NE(own[0].find("the cells at this canopy are 0.02 x 0.02 x 0.0267 m"), std::string::npos) << own[0];
+}
+
 TEST(Warnings, AMeshIsWarnedOfWithFewerNodesThanItsTypeNeeds) {
   Case given = warned_case();
   const int enough = experience(given.parachute).cloth_nodes;

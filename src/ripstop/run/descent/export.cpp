@@ -54,6 +54,8 @@ ExportedParachute exported(const FinishedSteady& run, std::optional<double> depl
   p.packed_volume = run_pattern(run.resolved, {}, packed_by_hand).bill.packed_volume;
   p.packed_diameter = std::cbrt(2 * p.packed_volume / std::numbers::pi);
   p.packed_length = 2 * p.packed_diameter;
+  p.warnings = run.warnings;
+  if (flight) p.warnings.insert(p.warnings.end(), flight->warnings.begin(), flight->warnings.end());
   return p;
 }
 

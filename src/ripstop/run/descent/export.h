@@ -32,7 +32,8 @@ struct ExportedParachute {
   double line_length = 0, line_density = 0, cloth_density = 0;  // [m], [kg/m], [kg/m2]
   std::string line_material, cloth_material;
   double packed_volume = 0, packed_diameter = 0,
-         packed_length = 0;  // [m3], [m], [m]: a cylinder twice as long as wide
+         packed_length = 0;                // [m3], [m], [m]: a cylinder twice as long as wide
+  std::vector<std::string> warnings = {};  // of run and flight
 };
 template <Of<ExportedParachute> T, class Visit>
 void each_member(T& p, Visit&& visit) {
@@ -64,6 +65,7 @@ void each_member(T& p, Visit&& visit) {
   visit("packed_volume_m3", p.packed_volume);
   visit("packed_diameter_m", p.packed_diameter);
   visit("packed_length_m", p.packed_length);
+  visit("warnings", p.warnings);
 }
 std::string to_json(const ExportedParachute& parachute);
 

@@ -79,13 +79,17 @@ std::string stage_name(const ExportedRecovery& recovery, std::size_t i) {
 
 std::string comment_of(const ExportedStage& stage, const std::string& name) {
   const ExportedParachute& p = stage.parachute;
+  std::string warnings;
+  for (const std::string& text : p.warnings) warnings += "# Warning: " + literal(text) + "\n";
   return fmt::format(
-      "# {}: drag area {:.4f} +- {:.4f} m2 (numerical uncertainty of the run). Lag: {}.\n"
-      "# Reference area of drag_coefficient: pi radius^2 = {:.4f} m2, as RocketPy defines it. On the nominal "
-      "area\n# S0 = {:.4f} m2 the drag coefficient of the open canopy is C_D = {:.4f}.\n"
-      "# This coefficient is {}.\n",
-      literal(name), p.drag_area, p.drag_area_uncertainty, p.lag_from, std::numbers::pi * p.radius * p.radius,
-      p.nominal_area, p.drag_coefficient, basis_text(p));
+             "# {}: drag area {:.4f} +- {:.4f} m2 (numerical uncertainty of the run). Lag: {}.\n"
+             "# Reference area of drag_coefficient: pi radius^2 = {:.4f} m2, as RocketPy defines it. On the "
+             "nominal "
+             "area\n# S0 = {:.4f} m2 the drag coefficient of the open canopy is C_D = {:.4f}.\n"
+             "# This coefficient is {}.\n",
+             literal(name), p.drag_area, p.drag_area_uncertainty, p.lag_from,
+             std::numbers::pi * p.radius * p.radius, p.nominal_area, p.drag_coefficient, basis_text(p)) +
+         warnings;
 }
 
 // RocketPy passes no time to a trigger, and calls it once or twice per sample (time_overshoot). The time therefore follows

@@ -25,6 +25,7 @@
 #include "ripstop/run/report/report.h"
 #include "ripstop/run/report/report_tables.h"
 #include "ripstop/run/steady/warnings.h"
+#include "ripstop/run/used_run.h"
 
 namespace ripstop::inline run {
 namespace {
@@ -277,6 +278,7 @@ RecoveryResult run_recovery(const Settings& main, const std::optional<Settings>&
   for (const DragEnd end : {DragEnd::nominal, DragEnd::low, DragEnd::high})
     flights.push_back(RecoveryFlight(canopies, request, wind, body, end).fly_down());
   RecoveryResult r;
+  r.warnings = warnings_of_used({request.drogue_steady, request.main_steady});
   r.title = main.title(), r.mass = r.total_mass = request.mass;
   for (const RecoveryCanopy& canopy : canopies) r.total_mass += canopy.mass;
   if (const double all = std::accumulate(request.sections.begin(), request.sections.end(), 0.0);

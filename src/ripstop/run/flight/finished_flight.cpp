@@ -6,6 +6,7 @@
 #include "ripstop/run/json.h"
 #include "ripstop/run/run_folder.h"
 #include "ripstop/run/steady/steady_folder.h"
+#include "ripstop/run/used_run.h"
 
 namespace ripstop::inline run {
 
@@ -29,6 +30,7 @@ FinishedFlight finished_flight(const std::filesystem::path& folder) {
                 fmt::format("{}: the flight has no coefficient in descent: {}; fly again with another start "
                             "or parachute",
                             folder.string(), flight.result.ended_by));
+  flight.warnings = warnings_of_used({folder});
   return flight;
 }
 

@@ -73,6 +73,7 @@ struct FlightResult {
   double distance = 0, height_lost = 0;               // of the payload over the ground [m]
   double energy_residual = 0, momentum_residual = 0;  // of the whole flight
   double air_momentum_residual = 0;  // largest momentum gap of a step of the air over the weight
+  double mass_defect = 0;            // largest of a step of the air
   double cells_across = 0;           // of the inflated canopy
   StressPeak stress;                 // highest of all shapes
   std::optional<Margins> margins;
@@ -118,6 +119,7 @@ void each_member(T& r, Visit&& visit) {
   visit("energy_residual", r.energy_residual);
   visit("momentum_residual", r.momentum_residual);
   visit("air_momentum_residual", r.air_momentum_residual);
+  visit("mass_defect", r.mass_defect);
   visit("cells_across", r.cells_across);
   visit("max_von_mises_n_m", r.stress.von_mises);
   visit("max_von_mises_on", r.stress.patch);

@@ -12,6 +12,7 @@
 #include "ripstop/core/file.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/steady/warnings.h"
+#include "ripstop/run/used_run.h"
 
 namespace ripstop::inline run {
 namespace {
@@ -150,12 +151,13 @@ FastestResult run_fastest(const Settings& resolved, LoadRequest request, double 
   if (request.measured_load)
     throw Error(ExitCode::usage,
                 "a measured load belongs to one speed: leave out --measured-load for the fastest deployment");
+  FastestResult r;
   // A drag area that a run provides is read once.
   const DragCoefficient drag = opening_drag_coefficient(resolved, request);
-  request.drag_coefficient = drag.value;
+  r.warnings = warnings_of_used({request.steady, request.opening, request.filling_from});
+  request.drag_coefficient = drag.value, request.steady.clear();
   const LoadsAtSpeed loads(resolved, request);
   const LoadResult& fast = loads.at(fastest_deployment);
-  FastestResult r;
   r.title = fast.title, r.payload_mass = fast.payload_mass, r.parachute_mass = fast.parachute_mass;
   r.height = fast.height, r.margin = margin;
   LoadUncertainty uncertainty = load_uncertainty(drag);
@@ -169,7 +171,7 @@ FastestResult run_fastest(const Settings& resolved, LoadRequest request, double 
   const bool computed = fast.record_peak_load && request.reefing.empty();
   r.design_method = computed ? computed_method : infinite_mass_method;
   r.advice = advice_of(r, fast.filling_constant);
-  r.warnings = strain_warnings(resolved, 0);
+  for (std::string& text : strain_warnings(resolved, 0)) r.warnings.push_back(std::move(text));
   if (r.design().unsafe_at)
     r.warnings.push_back(
         fmt::format("no deployment is safe by the method {}: at {:.3g} m/s, about the rate of descent, the "

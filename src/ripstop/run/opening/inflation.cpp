@@ -162,9 +162,10 @@ void take_quality(InflationResult& r, const Settings& resolved, const Opening& s
       gap = std::max(gap, std::abs(row.momentum_gap));
       if (row.time >= r.start_up_time.value_or(0)) defect = std::max(defect, row.mass_defect);
     }
-    r.momentum_residual = gap / r.peak_load, r.cells_across = cells_across(resolved);
+    r.momentum_residual = gap / r.peak_load, r.mass_defect = defect;
+    r.cells_across = cells_across(resolved);
     values.insert(values.end(), {{"momentum_residual", *r.momentum_residual},
-                                 {"mass_defect", defect},
+                                 {"mass_defect", *r.mass_defect},
                                  {"cells_across", *r.cells_across}});
     const double peak_time = r.smooth_peak_time.value_or(r.peak_time);
     if (r.start_up_time && !history.rows.empty() &&
@@ -184,6 +185,7 @@ void take_quality(InflationResult& r, const Settings& resolved, const Opening& s
       distance = row.path / nominal_diameter(resolved.parachute());
   if (const auto text = handbook_disagreement(r.smooth_peak.value_or(r.peak_load), distance, r.handbook))
     judgement.add({*text});
+  judgement.add(r.source.warnings);
   judgement.add(mesh_warnings(resolved));
   if (solver.air()) judgement.add(air_warnings(resolved));
   judgement.add(strain_warnings(resolved, r.stress.strain));

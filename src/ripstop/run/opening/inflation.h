@@ -59,6 +59,7 @@ struct InflationResult {
   std::optional<Margins> margins;
   double energy_residual = 0;  // largest |residual| of all frames after the first tenth of the work
   std::optional<double> momentum_residual;  // of the air: largest momentum gap of a step over the peak load
+  std::optional<double> mass_defect;        // of the air: largest of a step after the start-up
   double contact_depth = 0, pierced = 0;    // largest of all frames, see InflationFrame
   std::optional<double> cells_across;       // of the air, across the inflated canopy
   OpeningEstimate estimate;
@@ -125,6 +126,7 @@ void each_member(T& r, Visit&& visit) {
   visit("margins", r.margins);
   visit("energy_residual", r.energy_residual);
   visit("momentum_residual", r.momentum_residual);
+  visit("mass_defect", r.mass_defect);
   visit("contact_depth", r.contact_depth);
   visit("pierced_edges", r.pierced);
   visit("cells_across", r.cells_across);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "ripstop/case/payload.h"
 #include "ripstop/core/error.h"
@@ -20,6 +21,7 @@
 #include "ripstop/run/opening/handbook.h"
 #include "ripstop/run/opening/opening_record.h"
 #include "ripstop/run/steady/warnings.h"
+#include "ripstop/run/used_run.h"
 
 namespace ripstop::inline run {
 namespace {
@@ -360,11 +362,12 @@ LoadResult run_load(const Settings& resolved, const LoadRequest& request) {
   check_request(request);
   LoadResult r;
   r.title = resolved.title();
-  r.warnings = strain_warnings(resolved, 0);
   r.payload_mass = request.payload_mass;
   r.parachute_mass = parachute_mass(resolved);
   r.height = deployment_height(resolved, request);
   choose_coefficients(resolved, request, r);
+  r.warnings = warnings_of_used({request.steady, request.opening, request.filling_from});
+  for (std::string& text : strain_warnings(resolved, 0)) r.warnings.push_back(std::move(text));
   const double mass = r.payload_mass + r.parachute_mass, area = r.drag_coefficient * r.reference_area;
   if (request.speed <= slowest_opening(mass, area, r.height, request.path_angle)) {
     const auto [rate, speed] =

@@ -14,6 +14,7 @@
 #include "ripstop/output/plot.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/run_folder.h"
+#include "ripstop/run/used_run.h"
 
 namespace ripstop::inline run {
 namespace {
@@ -124,6 +125,7 @@ std::string to_json(const MeasuredLoad& comparison) {
 MeasuredLoad compare_load(const MeasuredLoadRequest& request) {
   const LoadRecord computed = computed_record(request.run), measured = measured_record(request);
   MeasuredLoad m;
+  m.warnings = warnings_of_shown({request.run});
   m.title = nlohmann::json::parse(*finished_result(request.run)).value("title", std::string());
   m.run = request.run.string(), m.file = request.file.string();
   m.shift = request.shift ? *request.shift : best_shift(computed, measured);

@@ -21,6 +21,7 @@
 #include "ripstop/run/json.h"
 #include "ripstop/run/sizing/line_choice.h"
 #include "ripstop/run/sizing/size_case.h"
+#include "ripstop/run/used_run.h"
 
 namespace ripstop::inline run {
 namespace {
@@ -367,7 +368,8 @@ VerifiedDescent::VerifiedDescent(const FlightResult& flight)
       coefficient(flight.coefficient.value_or(0)),
       speed_error(flight.descent_error),
       usable(flight.usable && flight.coefficient),
-      flown(true) {}
+      flown(true),
+      warnings(flight.warnings) {}
 
 std::vector<FamilyDrag> family_drags() {
   const std::filesystem::path file = data_directory() / "examples/families.json";
@@ -441,11 +443,17 @@ void verify_size(const SizeRequest& request, SizeResult& r,
     const VerifiedDescent flown = fly(resolve(parse_case(r.case_text, "the sized case")), run);
     const char* basis = flown.flown ? "descent" : "axial";
     if (!flown.usable)
-      throw Error(ExitCode::not_converged,
-                  fmt::format("--verify: run {} has not converged; its descent rate cannot be used", run));
+      throw Error(
+          ExitCode::not_converged,
+          fmt::format("--verify: run {} has not converged or is beyond a limit of quality; its descent "
+                      "rate cannot be used{}",
+                      run, flown.warnings.empty() ? "" : ": " + flown.warnings.front()));
     r.checks.push_back({r.nominal_diameter, flown.speed, flown.coefficient, basis, flown.speed_error});
     const double known = std::max(tolerance, flown.speed_error.value_or(0) / request.descent_rate);
-    if (std::abs(flown.speed / request.descent_rate - 1) <= known) return;
+    if (std::abs(flown.speed / request.descent_rate - 1) <= known) {
+      add_warnings_of({fmt::format("run {} of --verify", run), flown.warnings}, r.warnings);
+      return;
+    }
     scale_lengths(r.given.parachute, flown.speed / request.descent_rate);
     r.drag_coefficient = flown.coefficient, r.drag_basis = basis;
     r.drag_source = flown.flown ? "in descent, flown by --verify --fly"

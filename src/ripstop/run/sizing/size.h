@@ -70,13 +70,17 @@ void each_member(T& c, Visit&& visit) {
 /// Result of a run of --verify, on the axis or in flight.
 struct VerifiedDescent {
   VerifiedDescent(const SteadyResult& run)  // NOLINT(google-explicit-constructor): either result
-      : speed(run.speed), coefficient(run.drag_coefficient), usable(run.converged) {}
+      : speed(run.speed),
+        coefficient(run.drag_coefficient),
+        usable(run.converged && run.usable.value_or(true)),
+        warnings(run.warnings.value_or(std::vector<std::string>{})) {}
   /// Not usable without a mean.
   VerifiedDescent(const FlightResult& flight);  // NOLINT(google-explicit-constructor)
   double speed = 0, coefficient = 0;            // [m/s]
   std::optional<double> speed_error;            // standard error of a flight [m/s]
   bool usable = false;
   bool flown = false;
+  std::vector<std::string> warnings;  // of the run
 };
 
 /// result.json of `ripstop size`, without its case file.

@@ -22,6 +22,7 @@
 #include "ripstop/run/steady/checkpoint.h"
 #include "ripstop/run/steady/watch_files.h"
 #include "ripstop/run/stress_arrays.h"
+#include "ripstop/run/used_run.h"
 
 namespace ripstop::inline run {
 namespace {
@@ -307,14 +308,15 @@ LoadSource steady_load(const Settings& resolved, const SteadyResult& result, con
                        const Settings& opening) {
   if (!result.payload) {
     const double drag = drag_for_opening(resolved, result, where, opening);
-    return {fmt::format("{}: {:.4g} N", where, drag), drag};
+    return {fmt::format("{}: {:.4g} N", where, drag), drag,
+            warnings_if_usable(end_of_run(to_json(result), where))};
   }
   require_for_opening(resolved, result, where, opening);
   const double speed = opening.flow().speed_m_s;
   const double drag = result.drag_area * 0.5 * opening.flow().density_kg_m3 * speed * speed;
   return {fmt::format("{}: drag area of {:.4g} m2 at {:.4g} m/s, {:.4g} N at {:g} m/s", where,
                       result.drag_area, result.speed, drag, speed),
-          drag};
+          drag, warnings_if_usable(end_of_run(to_json(result), where))};
 }
 
 void require_same_parachute(const Settings& resolved, const std::string& where, const Settings& opening) {
