@@ -52,6 +52,13 @@ void print_stage(const RecoveryStage& s) {
       "design load",
       fmt::format("{}: {}", range_text({s.design_load, s.least_design_load, s.largest_design_load}, "N"),
                   s.design_load_from));
+  if (s.snatch_load)
+    print_row("snatch load", fmt::format("{} N by [deployment] of its case, at the highest airspeed",
+                                         rounded(*s.snatch_load)));
+  print_row("margins and hardware", fmt::format("under {} N, the {}", rounded(s.hardware.rated),
+                                                s.hardware.rated > s.largest_design_load
+                                                    ? "snatch load"
+                                                    : "upper end of the design load"));
   print_margins(s.margins);
   print_row("required hardware", hardware_text(s.hardware));
   print_row("fastest safe deployment", safe_speed_text(s.safe));

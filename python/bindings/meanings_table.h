@@ -371,7 +371,9 @@ RecoveryStage.highest_drag_coefficient: upper end of this range
 RecoveryStage.drag_coefficient_range_from: source of this range
 RecoveryStage.lowest_design_load_n: design load with the smallest drag coefficients
 RecoveryStage.highest_design_load_n: design load with the largest drag coefficients
-RecoveryStage.required_hardware: strength that each part of the hardware needs under the design load
+RecoveryStage.snatch_load_n: snatch load by [deployment] of its case, at the highest airspeed; None: without [deployment]
+RecoveryStage.margins: margins under the largest design load, or under the snatch load if that is larger
+RecoveryStage.required_hardware: strength that each part of the hardware needs under the same load
 RecoveryStage.fastest_safe_deployment: fastest safe deployment by the method of the design load
 RecoveryStage.descent_rate_m_s: rate of descent at the end of the stage
 RecoveryStage.duration_s: duration of the stage

@@ -174,10 +174,15 @@ Ranged ranged(const std::vector<Flown>& flights, Of3&& of) {
   return {a, std::min({a, b, c}), std::max({a, b, c})};
 }
 
-/// With the coefficient at one end of its range, at the speed of the flight that is slowest or fastest there; at least
-/// the largest force on the canopy of any flight, or at the low end the smallest of them.
-double design_load_at(DragEnd end, const RecoveryCanopy& canopy, std::size_t i,
-                      const std::vector<Flown>& flights, const RecoveryRequest& request) {
+struct EndLoads {
+  double design = 0;             // [N]
+  std::optional<double> snatch;  // of [deployment] [N]
+};
+
+/// With the coefficient at one end of its range, at the speed of the flight that is slowest or fastest there; the design
+/// load is at least the largest force on the canopy of any flight, or at the low end the smallest of them.
+EndLoads loads_at(DragEnd end, const RecoveryCanopy& canopy, std::size_t i, const std::vector<Flown>& flights,
+                  const RecoveryRequest& request) {
   const bool high = end == DragEnd::high;
   const auto faster = [&](const Flown& a, const Flown& b) {
     return a.stages[i].opening.speed < b.stages[i].opening.speed;
@@ -188,7 +193,10 @@ double design_load_at(DragEnd end, const RecoveryCanopy& canopy, std::size_t i,
   double peak = stage.peak_force;
   for (const Flown& flown : flights)
     peak = high ? std::max(peak, flown.stages[i].peak_force) : std::min(peak, flown.stages[i].peak_force);
-  return std::max(peak, opening_load(canopy, drag_at(end, canopy), stage.opening, mass, request).design_load);
+  const LoadResult load = opening_load(canopy, drag_at(end, canopy), stage.opening, mass, request);
+  EndLoads loads{std::max(peak, load.design_load), {}};
+  if (load.snatch) loads.snatch = load.snatch->load;
+  return loads;
 }
 
 RecoveryStage stage_of(const RecoveryCanopy& canopy, std::size_t i, const std::vector<Flown>& flights,
@@ -208,10 +216,12 @@ RecoveryStage stage_of(const RecoveryCanopy& canopy, std::size_t i, const std::v
   s.design_load = load.design_load, s.design_load_from = load.design_load_from;
   if (flown.peak_force > s.design_load)
     s.design_load = flown.peak_force, s.design_load_from = "largest force of the trajectory";
-  s.least_design_load = design_load_at(DragEnd::low, canopy, i, flights, request);
-  s.largest_design_load = design_load_at(DragEnd::high, canopy, i, flights, request);
-  s.margins = load_margins(canopy.resolved, s.design_load);
-  s.hardware = hardware_need(s.design_load, canopy.resolved.margins());
+  const EndLoads high = loads_at(DragEnd::high, canopy, i, flights, request);
+  s.least_design_load = loads_at(DragEnd::low, canopy, i, flights, request).design;
+  s.largest_design_load = high.design, s.snatch_load = high.snatch;
+  const double required = std::max(high.design, high.snatch.value_or(0));
+  s.margins = load_margins(canopy.resolved, required);
+  s.hardware = hardware_need(required, canopy.resolved.margins());
   LoadRequest asked;
   asked.payload_mass = load.payload_mass, asked.height = load.height, asked.ground = request.ground;
   asked.path_angle = std::max(flown.opening.path_angle, 0.0);

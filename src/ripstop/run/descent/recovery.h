@@ -57,8 +57,9 @@ struct RecoveryStage {
   double design_load = 0;                                 // [N]
   double least_design_load = 0, largest_design_load = 0;  // with the ranges of drag and speed [N]
   std::string design_load_from;
-  HardwareNeed hardware;             // under the design load
-  std::optional<Margins> margins;    // under the design load
+  std::optional<double> snatch_load;  // by [deployment] of the case, at the highest speed [N]
+  HardwareNeed hardware;             // under the largest design load, or the snatch load where that is larger
+  std::optional<Margins> margins;    // the same
   SafeSpeed safe;                    // fastest safe deployment by the method of the design load
   Ranged descent_rate;               // at the end [m/s]
   Ranged duration, drift;            // [s], with the wind [m]
@@ -89,6 +90,7 @@ void each_member(T& s, Visit&& visit) {
   visit("lowest_design_load_n", s.least_design_load);
   visit("highest_design_load_n", s.largest_design_load);
   visit("design_load_from", s.design_load_from);
+  visit("snatch_load_n", s.snatch_load);
   visit("required_hardware", s.hardware);
   visit("margins", s.margins);
   visit("fastest_safe_deployment", s.safe);

@@ -14,6 +14,7 @@
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/descent.h"
 #include "ripstop/flight/validity.h"
+#include "ripstop/fsi/opening_estimate.h"
 #include "ripstop/run/descent/descent.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/opening/filling.h"
@@ -63,14 +64,6 @@ double deployment_height(const Settings& resolved, const LoadRequest& request) {
   return known > request.ground ? known : request.ground + usual_deployment_height;
 }
 
-/// C_D of the infinite-mass load. The C_x of the handbook is the peak over the drag that its C_D in descent gives. With a
-/// smaller coefficient, such as that of a canopy on the axis of the stream, the load would be too low. So at least the
-/// largest C_D of the handbook is used, unless the user gives C_x.
-double design_drag(const Settings& resolved, const LoadRequest& request, double drag_coefficient) {
-  if (request.opening_coefficient) return drag_coefficient;
-  return std::max(drag_coefficient, experience(resolved.parachute()).drag_coefficient.high);
-}
-
 /// Opening and filling coefficients: as asked, else the handbook's of the family.
 void choose_coefficients(const Settings& resolved, const LoadRequest& request, LoadResult& r) {
   const Experience known = experience(resolved.parachute());
@@ -79,7 +72,9 @@ void choose_coefficients(const Settings& resolved, const LoadRequest& request, L
   DragCoefficient drag = opening_drag_coefficient(resolved, request);
   r.drag_coefficient = drag.value, r.drag_source = std::move(drag.from);
   r.drag_uncertainty = drag.uncertainty;
-  r.design_drag_coefficient = design_drag(resolved, request, drag.value);
+  r.design_drag_coefficient = request.opening_coefficient
+                                  ? drag.value  // its C_x belongs to it
+                                  : design_drag_coefficient(resolved.parachute(), drag.value);
   r.opening_coefficient = request.opening_coefficient.value_or(known.opening_coefficient);
   r.opening_source = request.opening_coefficient ? "given" : known.opening_source;
   require_positive("opening coefficient C_x", r.opening_coefficient);

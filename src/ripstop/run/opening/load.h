@@ -40,7 +40,8 @@ struct LoadRequest {
   std::optional<double> payload_drag_area;  // [m2]; absent: the case's
   std::filesystem::path steady, opening;    // folders of runs to take the drag area from; empty: none
   std::filesystem::path filling_from;   // of a computed opening whose n and exponent are taken; empty: none
-  bool descent = true;                  // the trajectory continues to the steady descent or the ground
+  /// The trajectory continues to the steady descent or the ground, and the snatch load has its changes; else only loads.
+  bool descent = true;
   std::optional<double> measured_load;  // of an opening of this parachute at this speed and mass [N]
 };
 
@@ -97,7 +98,7 @@ struct LoadResult {
   double drag_coefficient = 0, opening_coefficient = 0, filling_constant = 0, filling_exponent = 0;
   double ludtke_exponent = 0;
   double drag_uncertainty = 0;         // of the drag coefficient, relative
-  double design_drag_coefficient = 0;  // C_D of the infinite-mass load: see design_drag() in load.cpp
+  double design_drag_coefficient = 0;  // C_D of the infinite-mass load
   std::string drag_source, opening_source, filling_source;
   std::vector<StageLoads> stages;
   double design_load = 0;                  // load for which lines and riser are to be designed [N]

@@ -86,6 +86,7 @@ std::optional<SnatchResult> snatch_of(const Settings& resolved, const LoadReques
   SnatchResult found = snatch.with(parts);
   const double strength = resolved.materials().line.break_load_n;
   if (strength > 0) found.line_margin = strength / found.line_load;
+  if (!request.descent) return found;
   for (std::size_t i = 0; i < parts.size(); ++i)
     found.changes.push_back({parts[i].name, snatch.changed(parts, i, 0.5, 1), snatch.changed(parts, i, 2, 1),
                              snatch.changed(parts, i, 1, 0.5), snatch.changed(parts, i, 1, 2)});
