@@ -22,6 +22,7 @@
 #include "ripstop/output/csv.h"
 #include "ripstop/output/plot.h"
 #include "ripstop/run/json.h"
+#include "ripstop/run/opening/snatch.h"
 #include "ripstop/run/report/report.h"
 #include "ripstop/run/report/report_tables.h"
 
@@ -73,8 +74,8 @@ void check_recovery(const RecoveryRequest& q, bool two_stages) {
 }
 
 /// Opening of a canopy at a state of the flight, of the whole mass [kg].
-LoadResult opening_load(const RecoveryCanopy& canopy, double drag_coefficient, const FlightState& state,
-                        double mass, const RecoveryRequest& request) {
+LoadRequest opening_of(const RecoveryCanopy& canopy, double drag_coefficient, const FlightState& state,
+                       double mass, const RecoveryRequest& request) {
   LoadRequest asked;
   asked.payload_mass = mass - canopy.mass;
   asked.speed = state.speed, asked.height = state.height, asked.ground = request.ground;
@@ -82,10 +83,10 @@ LoadResult opening_load(const RecoveryCanopy& canopy, double drag_coefficient, c
   asked.drag_coefficient = drag_coefficient;
   asked.descent = false;
   // Slower than it will descend, as soon after apogee: methods without gravity; the trajectory has the weight.
-  if (state.speed <=
-      1.001 * slowest_opening(mass, drag_coefficient * canopy.area, state.height, asked.path_angle))
+  if (state.speed <= 1.001 * slowest_opening(mass, drag_coefficient * canopy.area,
+                                             standard_air(state.height).density, asked.path_angle))
     asked.path_angle = 0;
-  return run_load(canopy.resolved, asked);
+  return asked;
 }
 
 class RecoveryFlight {
@@ -115,7 +116,8 @@ class RecoveryFlight {
  private:
   void fly_stage(std::size_t i) {
     const RecoveryCanopy& canopy = canopies_[i];
-    FlownStage stage{state_, opening_load(canopy, drag_at(end_, canopy), state_, mass_, request_)};
+    FlownStage stage{state_, run_load(canopy.resolved,
+                                      opening_of(canopy, drag_at(end_, canopy), state_, mass_, request_))};
     ++open_;
     const StageLoads& opening = stage.load.stages.front();
     const double others = body_area_ + (request_.drogue_released ? 0 : before_);
@@ -193,9 +195,11 @@ EndLoads loads_at(DragEnd end, const RecoveryCanopy& canopy, std::size_t i, cons
   double peak = stage.peak_force;
   for (const Flown& flown : flights)
     peak = high ? std::max(peak, flown.stages[i].peak_force) : std::min(peak, flown.stages[i].peak_force);
-  const LoadResult load = opening_load(canopy, drag_at(end, canopy), stage.opening, mass, request);
+  const LoadRequest asked = opening_of(canopy, drag_at(end, canopy), stage.opening, mass, request);
+  const LoadResult load = run_load(canopy.resolved, asked);
   EndLoads loads{std::max(peak, load.design_load), {}};
-  if (load.snatch) loads.snatch = load.snatch->load;
+  if (!high) return loads;
+  if (const auto snatch = snatch_of(canopy.resolved, asked, load)) loads.snatch = snatch->load;
   return loads;
 }
 
@@ -209,7 +213,7 @@ RecoveryStage stage_of(const RecoveryCanopy& canopy, std::size_t i, const std::v
   s.drag_source = canopy.drag.from, s.drag_basis = canopy.drag.basis, s.reference_area = canopy.area;
   s.descent_drag = canopy.range;
   s.time = flown.opening.time, s.height = flown.opening.height - request.ground;
-  s.path_angle = flown.opening.path_angle;
+  s.path_angle = flown.opening.path_angle, s.density = load.density;
   s.speed = ranged(flights, [&](const Flown& f) { return f.stages[i].opening.speed; });
   s.filling_time = load.stages.front().filling_time;
   s.lowest_load = load.stages.front().lowest, s.highest_load = load.stages.front().highest;
@@ -220,7 +224,7 @@ RecoveryStage stage_of(const RecoveryCanopy& canopy, std::size_t i, const std::v
   s.least_design_load = loads_at(DragEnd::low, canopy, i, flights, request).design;
   s.largest_design_load = high.design, s.snatch_load = high.snatch;
   const double required = std::max(high.design, high.snatch.value_or(0));
-  s.margins = load_margins(canopy.resolved, required);
+  s.margins = load_margins(canopy.resolved, high.design, high.snatch.value_or(0));
   s.hardware = hardware_need(required, canopy.resolved.margins());
   LoadRequest asked;
   asked.payload_mass = load.payload_mass, asked.height = load.height, asked.ground = request.ground;

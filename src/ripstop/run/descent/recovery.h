@@ -51,6 +51,7 @@ struct RecoveryStage {
   DescentDrag descent_drag;                                               // range in descent
   double time = 0, height = 0,
          path_angle = 0;    // of the opening [s], above the ground [m], below the horizon [deg]
+  double density = 0;       // there, of the standard atmosphere [kg/m3]
   Ranged speed;             // through the air at the opening [m/s]
   double filling_time = 0;  // [s]
   double lowest_load = 0, highest_load = 0;               // of the methods that apply [N]
@@ -82,6 +83,7 @@ void each_member(T& s, Visit&& visit) {
   visit("time_s", s.time);
   visit("height_m", s.height);
   visit("path_angle_deg", s.path_angle);
+  visit("density_kg_m3", s.density);
   visit("speed_m_s", s.speed);
   visit("filling_time_s", s.filling_time);
   visit("lowest_load_n", s.lowest_load);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "ripstop/case/deployment.h"
+#include "ripstop/case/opening.h"
 #include "ripstop/case/payload.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/quantity_error.h"
@@ -197,6 +198,8 @@ InflationResult result_of(const Settings& resolved, const LoadSource& source, co
   InflationResult r;
   r.title = resolved.title();
   r.source = source;
+  OpeningAir air = opening_air(resolved);
+  r.height = air.height, r.density = air.density, r.air_source = std::move(air.from);
   r.settings = solver.problem().settings;
   take_peaks(r, state, history, start_up);
   take_steady_load(r, source, solver, history, start_up);
