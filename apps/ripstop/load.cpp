@@ -235,8 +235,8 @@ void add_load(CLI::App& app, int& status) {
           ->add_flag(
               "--fastest", options->fastest,
               "Find the largest airspeed at line stretch at which tape or hem, lines, riser and "
-              "[hardware] keep their margin of safety, by every method, with the snatch load if its speed "
-              "difference is known")
+              "[hardware] keep their margin of safety, by every method. The snatch load is included if its "
+              "speed difference is known")
           ->excludes(speed);
   add_number(*command, "--margin", options->margin, from(0).up_to(100),
              "Margin of safety that every member keeps with --fastest (default: 0)")
