@@ -96,7 +96,7 @@ void print(const Settings& resolved, const CaseSummary& s, std::size_t warnings)
                     stage.line_m / std::numbers::pi / nominal_diameter(resolved.parachute()), stage.cut_s));
   }
   row("air",
-      fmt::format("{:.4g} m/s, {:.4g} kg/m3{}", s.air.speed, s.air.density,
+      fmt::format("{:.4g} m/s, {:.4g} kg/m3 ({}){}", s.air.speed, s.air.density, s.air_source,
                   resolved.payload().mass_kg ? "; initial speed of a steady run with the payload" : ""));
   row("problems", warnings == 0
                       ? "none"

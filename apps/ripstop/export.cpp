@@ -32,9 +32,14 @@ struct ExportArguments {
   bool force = false, drogue_released = false;
 };
 
-ExportedParachute exported_run(const fs::path& run, std::optional<double> speed, const fs::path& flight) {
-  return exported(finished_steady(run), speed,
-                  flight.empty() ? std::nullopt : std::optional(finished_flight(flight)));
+ExportedParachute exported_run(const fs::path& run, std::optional<double> speed, const fs::path& flight,
+                               const char* option) {
+  ExportedParachute p = exported(finished_steady(run), speed,
+                                 flight.empty() ? std::nullopt : std::optional(finished_flight(flight)));
+  if (p.speed_assumed)
+    print_warnings({fmt::format("{}: the lag of {:.3g} s is for a deployment at {:.3g} m/s ({}); give {}",
+                                p.run, p.lag, p.deployment_speed, p.deployment_speed_from, option)});
+  return p;
 }
 
 std::string text_of(const std::string& format, const ExportedRecovery& recovery) {
@@ -52,9 +57,11 @@ int export_run(const ExportArguments& options) {
   recovery.drogue_released = options.drogue_released;
   if (!options.drogue.empty())
     recovery.stages.push_back(
-        {exported_run(options.drogue, options.drogue_speed, options.drogue_flight), options.drogue_trigger});
+        {exported_run(options.drogue, options.drogue_speed, options.drogue_flight, "--drogue-speed"),
+         options.drogue_trigger});
   recovery.stages.push_back(
-      {exported_run(options.run, options.deployment_speed, options.flight), options.trigger});
+      {exported_run(options.run, options.deployment_speed, options.flight, "--deployment-speed"),
+       options.trigger});
   for (const std::string& text : options.reefing)
     recovery.stages.back().reefing.push_back(parse_reefed_stage(text));
   const std::string text = text_of(options.format, recovery);
@@ -93,10 +100,10 @@ void add_export(CLI::App& app, int& status) {
                       "Deployment trigger: apogee, or a height above the ground [m]");
   add_number(*command, "--deployment-speed", options->deployment_speed, above(0).up_to(1000),
              "Speed at deployment, which sets the filling time (lag) [m/s]")
-      ->default_str("speed of the run");
+      ->default_str("speed of the run; with [payload], 20 m/s or three times the rate of descent");
   add_number(*command, "--drogue-speed", options->drogue_speed, above(0).up_to(1000),
              "Speed at deployment of the drogue [m/s]")
-      ->default_str("speed of its run");
+      ->default_str("as --deployment-speed");
   CLI::Option* drogue =
       add_run_folder(*command, "--drogue", options->drogue,
                      "Folder of a finished run of ripstop steady of the drogue, which opens first");

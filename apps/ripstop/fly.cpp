@@ -72,6 +72,7 @@ void print_flight(const FlightResult& r, const fs::path& folder, double wall_tim
   row("largest force of the lines",
       fmt::format("{:.1f} N, {:.2f} times the payload's weight", r.largest_load, r.load_factor));
   print_margins(r.margins);
+  if (r.air_source) row("air", fmt::format("{:.4g} kg/m3 at the start ({})", r.density, *r.air_source));
   row("path", fmt::format("{:.1f} m down, {:.1f} m over the ground", r.height_lost, r.distance));
   row("balance", fmt::format("energy {:.3f} % of the potential energy lost, momentum {:.3f} % of the weight",
                              100 * r.energy_residual, 100 * r.momentum_residual));

@@ -22,6 +22,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/run/opening/inflation_folder.h"
 #include "ripstop/run/opening/samples.h"
+#include "ripstop/run/opening/snatch.h"
 #include "ripstop/run/report/report.h"
 #include "stopping.h"
 #include "units_option.h"
@@ -56,8 +57,9 @@ void print_deployment(const Settings& resolved) {
     print_text("  {:<24} {:8.4f} s {:8.2f} m, payload at {:6.2f} m/s, container at {:6.2f} m/s\n", phase.name,
                phase.time, phase.path, phase.payload_speed, phase.bag_speed);
   if (deployment->phase(lines_stretch))
-    print_text("  snatch load {:.1f} N at {:.4f} s, speed difference {:.2f} m/s\n", deployment->snatch_load,
-               deployment->snatch_time, deployment->relative_speed);
+    print_text("  snatch load {:.1f} N at {:.4f} s, speed difference {:.2f} m/s at line stretch ({})\n",
+               deployment->snatch_load, deployment->snatch_time, deployment->relative_speed,
+               deployment_model);
   if (deployment->stopped) print_text("  did not open: {}\n", *deployment->stopped);
 }
 
@@ -128,6 +130,9 @@ void print_peaks(const InflationResult& r) {
                                      100 * (own / *s.measured_peak_n - 1), r.low_pass ? ", low-passed" : ""));
   }
   if (s.printed_peak_n) row("peak, model of the source", fmt::format("{:.1f} N", *s.printed_peak_n));
+  if (r.density && r.height && r.air_source)
+    row("air",
+        fmt::format("{:.4g} kg/m3, {:.4g} m above sea level ({})", *r.density, *r.height, *r.air_source));
   row("infinite-mass load",
       r.estimate.load ? fmt::format("{:.1f} N = C_x {:g} times {:.1f} N ({})", *r.estimate.load,
                                     r.estimate.coefficient, *r.estimate.drag, r.estimate.drag_from)

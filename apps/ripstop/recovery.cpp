@@ -45,14 +45,25 @@ void print_stage(const RecoveryStage& s) {
                                 s.drag_coefficient * s.reference_area, s.drag_source));
   print_row("range of C_D in descent", fmt::format("{:.3f} to {:.3f}: {}", s.descent_drag.low,
                                                    s.descent_drag.high, s.descent_drag.from));
-  print_row("opening", fmt::format("{:.2f} s after apogee, {} m above the ground, at {}", s.time,
-                                   rounded(s.height), range_text(s.speed, "m/s")));
+  print_row(
+      "opening",
+      fmt::format("{:.2f} s after apogee, {} m above the ground, at {}, path {} deg below the "
+                  "horizon, {:.4g} kg/m3 (standard atmosphere)",
+                  s.time, rounded(s.height), range_text(s.speed, "m/s"), rounded(s.path_angle), s.density));
   print_row("opening load", fmt::format("{} to {} N by the applicable methods; filling time {:.3g} s",
                                         rounded(s.lowest_load), rounded(s.highest_load), s.filling_time));
   print_row(
       "design load",
       fmt::format("{}: {}", range_text({s.design_load, s.least_design_load, s.largest_design_load}, "N"),
                   s.design_load_from));
+  if (s.snatch_load)
+    print_row("snatch load", fmt::format("{} N by [deployment] of its case, at the highest airspeed",
+                                         rounded(*s.snatch_load)));
+  print_row("margins and hardware",
+            fmt::format("under {} N, the upper end of the design load{}", rounded(s.largest_design_load),
+                        s.hardware.rated > s.largest_design_load
+                            ? "; of lines, riser and hardware under the snatch load"
+                            : ""));
   print_margins(s.margins);
   print_row("required hardware", hardware_text(s.hardware));
   print_row("fastest safe deployment", safe_speed_text(s.safe));

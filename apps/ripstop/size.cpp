@@ -42,7 +42,8 @@ struct SizeArguments {
 void print_result(const SizeResult& r, const fs::path& file, const fs::path& page) {
   const auto row = print_row;
   print_text("{}\n", r.given.title);
-  row("air", fmt::format("{:.4g} kg/m3", r.density));
+  row("air", fmt::format("{:.4g} kg/m3, {:.4g} m above sea level, for descent and opening ({})", r.density,
+                         r.height, r.air_source));
   row("drag coefficient",
       fmt::format("{:.3f} on S0, {}{}", r.drag_coefficient, r.drag_source,
                   r.handbook_drag_coefficient

@@ -33,6 +33,8 @@ descent_drag_coefficient_standard_error: standard error of the drag coefficient 
 low_pass_hz: cutoff frequency of the low-pass filter
 reference_area_m2: reference area S0
 density_kg_m3: density of the air
+air_from: source of the density of the air; None: result of an earlier version
+path_angle_deg: angle of the path below the horizon at line stretch, or at the start of the stage
 run: folder of the run; empty: in memory
 method: name of the method
 note: reason why the method does not apply, or its assumptions
@@ -162,6 +164,8 @@ ExportedParachute.drag_coefficient_on: name of the attribute that is its referen
 ExportedParachute.radius_m: half the projected diameter of the inflated canopy
 ExportedParachute.height_m: height of the inflated canopy from skirt to crown
 ExportedParachute.porosity: open area over the whole surface as constructed
+ExportedParachute.deployment_speed_m_s: speed at deployment, for the filling time
+ExportedParachute.deployment_speed_from: source of this speed
 ExportedParachute.lag_s: filling time: from the trigger to the full drag area
 ExportedParachute.lag_from: source of the filling time
 ExportedParachute.lag_deviation_s: standard deviation of the filling time
@@ -206,6 +210,7 @@ Handover.drag_after_n: drag of the canopy after
 Handover.elastic_energy_before_j: elastic energy of cloth and lines before
 Handover.elastic_energy_after_j: elastic energy of cloth and lines after
 # inflate()
+Inflation.height_m: height above sea level at the start; None: result of an earlier version
 Inflation.peak_load_n: peak load on the riser after the start-up, unfiltered
 Inflation.peak_time_s: time of this peak since deployment
 Inflation.inflation_time_s: time after which the load remains within 10 % of the steady load
@@ -262,7 +267,9 @@ OpeningProgress.duration_s: end of the opening
 OpeningProgress.load_n: present load on the riser
 OpeningProgress.step_s: time step of the cloth
 # load()
+Load.speed_m_s: airspeed at line stretch
 Load.height_m: height above sea level at line stretch
+Load.required_load_n: larger one of design load and snatch load, for margins of lines, riser and hardware
 Load.opening_coefficient: opening force coefficient C_x
 Load.opening_coefficient_from: source of C_x
 Load.filling_exponent: exponent of the drag area over time
@@ -271,7 +278,7 @@ Load.filling_from: source of filling constant and exponent
 Load.stages: loads of each reefed stage and of the open canopy
 Load.design_drag_coefficient: drag coefficient on S0 of the infinite-mass load: at least the handbook's, unless C_x is given
 Load.design_method: method of the design load; empty: a measured load
-Load.required_hardware: strength that each part of the hardware needs under the larger of design load and snatch load
+Load.required_hardware: strength that each part of the hardware needs under the required load
 HardwareNeed.rated_load_n: required rated load
 HardwareNeed.breaking_load_n: required breaking load of a metal part
 HardwareNeed.textile_breaking_load_n: required breaking load of a textile part
@@ -303,6 +310,9 @@ Snatch.line_load_n: load of one line
 Snatch.line_margin: breaking load of a line over its load
 Snatch.riser_margin: breaking load of the riser over the snatch load; None: there is no riser
 Snatch.speed_difference_from: source of the speed difference
+Snatch.model: model of the snatch load, in words
+Snatch.deployment_load_n: snatch load by [deployment] of the case; None: it is load_n, or the case has no [deployment]
+Snatch.deployment_speed_difference_m_s: speed difference of this load
 Snatch.changes: snatch loads with one part changed
 SnatchChange.part: part that is changed
 SnatchChange.half_length_n: snatch load with half the length; None: a part breaks
@@ -342,6 +352,7 @@ Pattern.line_on_canopy_m: length of each suspension line that is sewn to the can
 Pattern.drawings: names of the drawings of the pieces
 # recovery()
 FastestDeployment.height_m: height above sea level
+FastestDeployment.snatch: snatch load at the speed to use; None: without a speed difference
 FastestDeployment.margin_of_safety: margin of safety that every member keeps
 FastestDeployment.load_uncertainty: relative uncertainty of the load, which gives the range of the speeds
 FastestDeployment.load_uncertainty_from: source of this uncertainty
@@ -362,7 +373,6 @@ RecoveryStage.stage: "drogue" or "main"
 RecoveryStage.title: title of the case of the parachute
 RecoveryStage.time_s: time of the opening since apogee
 RecoveryStage.height_m: height of the opening above the ground
-RecoveryStage.path_angle_deg: angle of the path below the horizon at the opening
 RecoveryStage.speed_m_s: airspeed at the opening
 RecoveryStage.filling_time_s: filling time t_f
 RecoveryStage.lowest_load_n: smallest opening load of the applicable methods
@@ -372,7 +382,9 @@ RecoveryStage.highest_drag_coefficient: upper end of this range
 RecoveryStage.drag_coefficient_range_from: source of this range
 RecoveryStage.lowest_design_load_n: design load with the smallest drag coefficients
 RecoveryStage.highest_design_load_n: design load with the largest drag coefficients
-RecoveryStage.required_hardware: strength that each part of the hardware needs under the design load
+RecoveryStage.snatch_load_n: snatch load by [deployment] of its case, at the highest airspeed; None: without [deployment]
+RecoveryStage.margins: margins under the largest design load; of all but tape or hem under a larger snatch load
+RecoveryStage.required_hardware: strength that each part of the hardware needs under the same load
 RecoveryStage.fastest_safe_deployment: fastest safe deployment by the method of the design load
 RecoveryStage.descent_rate_m_s: rate of descent at the end of the stage
 RecoveryStage.duration_s: duration of the stage
@@ -408,7 +420,7 @@ FlownDrag.drag_coefficient: drag coefficient in descent on S0
 FlownDrag.standard_error: standard error of the coefficient
 FlownDrag.made: command and machine of the flight
 Size.descent_rate_m_s: required rate of descent
-Size.height_m: height above sea level at which this rate is required
+Size.height_m: height above sea level at which this rate is required, and at which the parachute opens
 Size.axial_drag_coefficient: axial drag coefficient of the family on S0
 Size.descent_drag_coefficient: drag coefficient of the family in descent on S0; None: not flown
 Size.handbook_diameter_m: nominal diameters that follow from the range of the handbook, largest first

@@ -6,6 +6,7 @@
 #include <functional>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/bodies.h"
@@ -78,6 +79,25 @@ Case opening_case(const Case& given) {
     close_mouth(opening.parachute, opening.inflation);
   mesh.folds = inflation.folds > 0 ? inflation.folds : opening.parachute.lines.count;
   return opening;
+}
+
+OpeningAir opening_air(const Settings& resolved, std::optional<double> height, std::optional<double> ground) {
+  const FlowSettings& flow = resolved.flow();
+  const Source& source = resolved.source("flow.density_kg_m3");
+  OpeningAir air{flow.height_m.value_or(nearest_standard_height(flow.density_kg_m3)), flow.density_kg_m3,
+                 flow.height_m  ? fmt::format("flow.height_m = {:g} m of the case", *flow.height_m)
+                 : source.given ? "flow.density_kg_m3 of the case"
+                                : source.from};
+  const bool below = !height && ground && air.height < *ground;
+  if (below) air.height = *ground;
+  if (!height && !(below && flow.height_m)) return air;
+  if (height) air.height = *height;
+  const double own = std::exchange(air.density, standard_air(air.height).density);
+  air.from = height ? "the standard atmosphere at the given height"
+                    : "the standard atmosphere at the ground, which is above flow.height_m of the case";
+  if (height && rounded(own) != rounded(air.density))
+    air.from += fmt::format(", in place of the {} kg/m3 of the case", rounded(own));
+  return air;
 }
 
 LoadSource load_source(const Settings& opening) {

@@ -63,22 +63,23 @@ Margins case_margins(const Settings& resolved, const CanopyMesh& mesh,
   return margins;
 }
 
-Margins load_margins(const Settings& resolved, double load) {
+Margins load_margins(const Settings& resolved, double load, double snatch) {
   const PartMaterials& materials = resolved.materials();
   return load_margins(resolved.parachute(), resolved.margins(), materials.canopy,
                       materials.tape ? &*materials.tape : nullptr, load, materials.line, materials.riser,
-                      resolved.hardware());
+                      resolved.hardware(), snatch);
 }
 
 Margins load_margins(const Design& design, const MarginFactors& factors, const Fabric& cloth,
                      const Tape* tape, double load, const Line& line, const Line& riser,
-                     const HardwareParts& hardware) {
-  const double line_load = experience(design).line_load_factor * load / design.lines.count;
+                     const HardwareParts& hardware, double snatch) {
+  const double share = experience(design).line_load_factor / design.lines.count;
+  const double line_load = share * load, largest = std::max(load, snatch);
   MemberLoads loads;
   if (tape) loads = edge_loads(line_load, tape);
-  loads.lines = {line_load};
-  if (design.riser.length_m > 0) loads.riser = load;
-  loads.hardware = load;
+  loads.lines = {share * largest};
+  if (design.riser.length_m > 0) loads.riser = largest;
+  loads.hardware = largest;
   Margins margins = margins_of(loads, factors, cloth, tape, line, riser, hardware);
   if (!tape) add_hem(line_load, factors, cloth, margins);
   margins.members.erase(margins.members.begin());  // the cloth, whose load is not known

@@ -172,12 +172,12 @@ TEST(SizeChoices, WithoutASufficientLineOrTapeMoreLinesShareTheLoad) {
   EXPECT_EQ(run_size(wanted()).gores_source, "");
 }
 
-// Near the ground the opening is flown from a hundred metres.
-TEST(SizeChoices, AtSeaLevelTheOpeningIsFlownAHundredMetresUp) {
+// The parachute is designed for the air in which its rate of descent is required.
+TEST(SizeChoices, TheOpeningIsAtTheHeightOfTheRateOfDescent) {
   SizeRequest asked = wanted();
   asked.height = 0;
   const SizeResult r = run_size(asked);
-  EXPECT_EQ(r.opening.front().height, 100);
+  EXPECT_EQ(r.opening.front().height, 0);
   EXPECT_EQ(run_size(wanted()).opening.front().height, 300);
   EXPECT_EQ(r.opening.front().speed, r.deployment_speed);
 }

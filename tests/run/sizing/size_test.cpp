@@ -298,5 +298,23 @@ TEST(Size, ImpossibleInputIsRefused) {
   EXPECT_NE(refused(asked).find("standard atmosphere"), std::string::npos);
 }
 
+// One question, one answer: the load of the sized parachute at its speed of deployment, by both commands.
+TEST(Size, DesignsForTheLoadThatTheLoadCommandHasForItsFile) {
+  SizeRequest sea, plateau, dense;
+  plateau.height = 1500, dense.density = 1.3;
+  for (SizeRequest asked : {sea, plateau, dense}) {
+    asked.payload_mass = 2.4, asked.descent_rate = 5;
+    const SizeResult found = run_size(asked);
+    LoadRequest load;
+    load.payload_mass = asked.payload_mass, load.speed = found.deployment_speed;
+    const LoadResult loaded = run_load(resolve(parse_case(found.case_text, "the sized case")), load);
+    EXPECT_EQ(loaded.density, found.density);
+    EXPECT_EQ(loaded.height, found.height);
+    EXPECT_EQ(loaded.air_source, found.air_source);
+    EXPECT_NEAR(loaded.design_load, found.design_load, 1e-6 * found.design_load);
+    EXPECT_NEAR(*weakest(*loaded.margins)->used, *weakest(*found.margins)->used, 1e-6);
+  }
+}
+
 }  // namespace
 }  // namespace ripstop

@@ -172,6 +172,7 @@ std::string device_text(const ExportedStage& stage, const Part& part) {
   const std::optional<double> height = trigger_height(stage.trigger);
   return fmt::format(
       "                <parachute>\n                  <name>{}</name>\n"
+      "                  <comment>Delay: {}</comment>\n"
       "                  <overridemass>{}</overridemass>\n"
       "                  <packedlength>{}</packedlength>\n                  <packedradius>{}</packedradius>\n"
       "                  <cd>{}</cd>\n                  <material type=\"surface\" "
@@ -181,9 +182,9 @@ std::string device_text(const ExportedStage& stage, const Part& part) {
       "                  <linecount>{}</linecount>\n                  <linelength>{}</linelength>\n"
       "                  <linematerial type=\"line\" density=\"{}\">{}</linematerial>\n"
       "                </parachute>\n",
-      escaped_markup(part.name), part.after > 0 ? 0 : p.mass, p.packed_length, p.packed_diameter / 2,
-      part.added * p.drag_coefficient, p.cloth_density, escaped_markup(p.cloth_material),
-      height ? "altitude" : "apogee",
+      escaped_markup(part.name), escaped_markup(p.lag_from), part.after > 0 ? 0 : p.mass, p.packed_length,
+      p.packed_diameter / 2, part.added * p.drag_coefficient, p.cloth_density,
+      escaped_markup(p.cloth_material), height ? "altitude" : "apogee",
       height ? fmt::format("                  <deployaltitude>{}</deployaltitude>\n", *height) : "",
       part.after + part.lag, p.nominal_diameter, p.line_count, p.line_length, p.line_density,
       escaped_markup(p.line_material));

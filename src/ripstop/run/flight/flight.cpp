@@ -10,6 +10,7 @@
 
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/bodies.h"
+#include "ripstop/case/opening.h"
 #include "ripstop/case/payload.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
@@ -199,6 +200,7 @@ FlightResult result_of(const Settings& resolved, const FreeFlight& flight, const
   const FreeFlightRow &last = history.rows.back(), &first = history.rows.front();
   r.title = resolved.title(), r.ended_by = ended_by, r.duration = last.time - flight.began();
   r.payload_mass = *resolved.payload().mass_kg, r.parachute_mass = flight.mass() - r.payload_mass;
+  r.air_source = opening_air(resolved).from;
   r.density = resolved.flow().density_kg_m3, r.reference_area = nominal_area(resolved.parachute());
   if (!start.opening) r.axial_speed = start.speed, r.axial_coefficient = start.coefficient;
   r.known_coefficient = experience(resolved.parachute()).drag_coefficient.if_known();

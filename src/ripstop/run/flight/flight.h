@@ -68,8 +68,9 @@ struct FlightResult {
   std::optional<Handover> handover;  // from an inflation
   double reference_area = 0;         // S0 [m2]
   double density = 0;                // at the start [kg/m3]
-  double largest_load = 0;           // of the lines on the payload [N]
-  double load_factor = 0;            // that over the payload's weight
+  std::optional<std::string> air_source;              // absent in results of earlier versions
+  double largest_load = 0;                            // of the lines on the payload [N]
+  double load_factor = 0;                             // that over the payload's weight
   double distance = 0, height_lost = 0;               // of the payload over the ground [m]
   double energy_residual = 0, momentum_residual = 0;  // of the whole flight
   double air_momentum_residual = 0;  // largest momentum gap of a step of the air over the weight
@@ -112,6 +113,7 @@ void each_member(T& r, Visit&& visit) {
   visit("axial_drag_coefficient", r.axial_coefficient);
   visit("reference_area_m2", r.reference_area);
   visit("density_kg_m3", r.density);
+  visit("air_from", r.air_source);
   visit("largest_line_force_n", r.largest_load);
   visit("load_factor", r.load_factor);
   visit("distance_m", r.distance);

@@ -134,12 +134,11 @@ void find_opening(const SizeRequest& request, SizeResult& r) {
   LoadRequest asked;
   asked.payload_mass = request.payload_mass;
   asked.speed = r.deployment_speed;
-  asked.height = request.density ? standard_height(r.density) : std::max(r.height, 100.0);
-  asked.ground = std::min(0.0, std::max(lowest_height, *asked.height - usual_deployment_height));
   asked.drag_coefficient = r.drag_coefficient;
   asked.descent = false;  // only the opening is used
   LoadResult load = run_load(resolve(r.given), asked);
   r.opening_load_low = load.stages.front().lowest, r.opening_load = load.stages.front().highest;
+  r.air_source = std::move(load.air_source);
   r.design_load = load.design_load, r.design_load_from = std::move(load.design_load_from);
   LoadUncertainty uncertainty = load_uncertainty(
       {r.drag_coefficient, r.drag_basis + " coefficient", load.drag_uncertainty, r.drag_basis});
@@ -249,7 +248,7 @@ void warn(const SizeRequest& request, SizeResult& r) {
         "(ripstop load --fastest) is slower than {:g} m/s; use a stronger material",
         rounded(r.largest_load), 100 * r.load_uncertainty, r.smallest_margin_member, *r.smallest_margin,
         r.deployment_speed));
-  const StandardAir air = standard_air(request.density ? standard_height(r.density) : r.height);
+  const StandardAir air = standard_air(r.height);
   const double reynolds = r.density * request.descent_rate * r.nominal_diameter / air.viscosity;
   for (const std::string& text : outside_range(
            flow_model,
@@ -411,7 +410,7 @@ SizeResult run_size(const SizeRequest& request) {
   const FamilyDrag drag = drag_of(request.family);
   r.family = request.family, r.type = drag.type;
   r.payload_mass = request.payload_mass, r.descent_rate = request.descent_rate;
-  r.height = request.height;
+  r.height = request.density ? nearest_standard_height(*request.density) : request.height;
   r.density = request.density ? *request.density : standard_air(request.height).density;
   take_coefficient(request, drag, r);
   r.handbook_drag_coefficient = drag.handbook;

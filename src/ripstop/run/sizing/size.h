@@ -86,7 +86,9 @@ struct VerifiedDescent {
 /// result.json of `ripstop size`, without its case file.
 struct SizeResult {
   std::string family, type;
-  double payload_mass = 0, descent_rate = 0, height = 0, density = 0;
+  double payload_mass = 0, descent_rate = 0;
+  double height = 0, density = 0;  // of descent and opening, above sea level [m], [kg/m3]
+  std::string air_source;
   double drag_coefficient = 0;
   std::string drag_basis, drag_source;                   // "axial", "descent" or "given"; where it comes from
   double axial_coefficient = 0;                          // of the family, in steady flow
@@ -128,6 +130,7 @@ void each_member(T& r, Visit&& visit) {
   visit("descent_rate_m_s", r.descent_rate);
   visit("height_m", r.height);
   visit("density_kg_m3", r.density);
+  visit("air_from", r.air_source);
   visit("drag_coefficient", r.drag_coefficient);
   visit("drag_coefficient_basis", r.drag_basis);
   visit("drag_coefficient_from", r.drag_source);
