@@ -14,6 +14,7 @@
 #include "number_option.h"
 #include "option.h"
 #include "reefed_stage.h"
+#include "ripstop/case/payload.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "warnings.h"
@@ -100,7 +101,9 @@ void add_export(CLI::App& app, int& status) {
                       "Deployment trigger: apogee, or a height above the ground [m]");
   add_number(*command, "--deployment-speed", options->deployment_speed, above(0).up_to(1000),
              "Speed at deployment, which sets the filling time (lag) [m/s]")
-      ->default_str("speed of the run; with [payload], 20 m/s or three times the rate of descent");
+      ->default_str(fmt::format(
+          "speed of the run; with [payload], {:g} times the rate of descent, but at least {:g} m/s",
+          deployment_over_descent, least_deployment_speed));
   add_number(*command, "--drogue-speed", options->drogue_speed, above(0).up_to(1000),
              "Speed at deployment of the drogue [m/s]")
       ->default_str("as --deployment-speed");

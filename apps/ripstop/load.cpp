@@ -250,7 +250,7 @@ void add_load(CLI::App& app, int& status) {
       ->default_str("height and density of the case");
   add_number(*command, "--ground", options->request.ground, height,
              "Height of the ground above sea level, where the flight ends [m]")
-      ->default_str("0 with --height, else none");
+      ->default_str("sea level with --height, else none");
   add_number(*command, "--angle", options->request.path_angle, from(-90).up_to(90),
              "Angle of the flight path below the horizon [deg]");
   command

@@ -28,6 +28,12 @@ drag_coefficient_basis: kind of the coefficient: "axial" (steady flow on the axi
 drag_coefficient_from: source of the drag coefficient
 drag_coefficient_uncertainty: relative uncertainty of the drag coefficient
 axial_drag_coefficient: drag coefficient on S0 in steady flow on the axis
+nominal_area_m2: nominal area S0
+filling_time_s: filling time t_f
+drag_area_uncertainty_m2: numerical uncertainty of the drag area, or the standard error of the flight
+ground_m: height of the ground above sea level
+load_uncertainty_from: source of load_uncertainty
+approach_speed_m_s: mean speed over the disk of the canopy, one diameter upstream of it
 descent_drag_coefficient: drag coefficient on S0 in descent, from weight and rate of descent
 descent_drag_coefficient_standard_error: standard error of the drag coefficient in descent
 low_pass_hz: cutoff frequency of the low-pass filter
@@ -74,7 +80,6 @@ DampingTrial.peak_time_s: time of this peak
 DampingTrial.every_step_peak_n: peak load over all time steps, unfiltered
 DampingTrial.inflation_time_s: time after which the load remains within 10 % of the steady load
 # check()
-Check.nominal_area_m2: nominal area S0
 Check.computed_area_m2: area of the cloth as cut
 Check.meshed_area_m2: area of the cloth as meshed, a polyhedron inside the cut cloth
 Check.vent_area_m2: area of the vent as constructed
@@ -147,9 +152,7 @@ FittedDirection.band_low: lower limit of the pointwise 95 % band of the mean
 FittedDirection.band_high: upper limit of the pointwise 95 % band of the mean
 # descent(), export()
 Descent.drag_area_m2: drag area C_D S0
-Descent.drag_area_uncertainty_m2: numerical uncertainty of the drag area, or the standard error of the flight
 Descent.run_speed_m_s: speed at which the drag area was computed
-Descent.ground_m: height of the ground above sea level
 Descent.heights: rows of the table
 DescentRow.height_m: height above sea level
 DescentRow.speed_m_s: rate of descent at this height
@@ -157,7 +160,6 @@ DescentRow.speed_uncertainty_m_s: its uncertainty, from that of the drag area
 DescentRow.time_to_ground_s: time from this height to the ground; None: at or below the ground
 DescentRow.time_uncertainty_s: its uncertainty
 ExportedParachute.drag_area_m2: drag area C_D S0
-ExportedParachute.drag_area_uncertainty_m2: numerical uncertainty of the drag area, or the standard error of the flight
 ExportedParachute.drag_area_deviation_m2: standard deviation of the drag area for a dispersion analysis
 ExportedParachute.drag_coefficient: drag coefficient on the area named by drag_coefficient_on
 ExportedParachute.drag_coefficient_on: name of the attribute that is its reference area
@@ -214,7 +216,6 @@ Inflation.height_m: height above sea level at the start; None: result of an earl
 Inflation.peak_load_n: peak load on the riser after the start-up, unfiltered
 Inflation.peak_time_s: time of this peak since deployment
 Inflation.inflation_time_s: time after which the load remains within 10 % of the steady load
-Inflation.filling_time_s: filling time t_f
 Inflation.settling_time_s: time after which the rms deviation of the load remains below 10 % of the steady load
 Inflation.steady_load_n: steady load; None: not settled, or a payload that decelerates
 Inflation.stages: results of each reefing stage and of the open canopy; None: without reefing
@@ -295,7 +296,6 @@ StageLoads.speed_m_s: airspeed at the start of the stage
 StageLoads.height_m: height above sea level at the start of the stage
 StageLoads.drag_area_before_m2: drag area before the stage
 StageLoads.drag_area_m2: drag area at the end of the filling
-StageLoads.filling_time_s: filling time t_f
 StageLoads.ballistic_parameter: ballistic parameter A
 StageLoads.mass_ratio: mass ratio R_m
 StageLoads.methods: load by each method
@@ -338,7 +338,6 @@ BillRow.cut_each: size with allowances, of one piece
 BillRow.mass_kg: mass as cut, of all pieces
 CutLength.name: name of the part
 CutLength.length_m: length of one piece, finished
-Pattern.nominal_area_m2: nominal area S0
 Pattern.cloth_area_m2: area of the cloth, finished
 Pattern.mass_kg: mass as cut, without thread
 Pattern.packing_density_kg_m3: density of the packed parachute
@@ -355,7 +354,6 @@ FastestDeployment.height_m: height above sea level
 FastestDeployment.snatch: snatch load at the speed to use; None: without a speed difference
 FastestDeployment.margin_of_safety: margin of safety that every member keeps
 FastestDeployment.load_uncertainty: relative uncertainty of the load, which gives the range of the speeds
-FastestDeployment.load_uncertainty_from: source of this uncertainty
 FastestDeployment.design_method: method of the design load, whose speed is the result
 FastestDeployment.advice: speed to use, and the reason why the methods differ
 FastestDeployment.methods: fastest safe speed by each method
@@ -374,7 +372,6 @@ RecoveryStage.title: title of the case of the parachute
 RecoveryStage.time_s: time of the opening since apogee
 RecoveryStage.height_m: height of the opening above the ground
 RecoveryStage.speed_m_s: airspeed at the opening
-RecoveryStage.filling_time_s: filling time t_f
 RecoveryStage.lowest_load_n: smallest opening load of the applicable methods
 RecoveryStage.highest_load_n: largest opening load of the applicable methods
 RecoveryStage.lowest_drag_coefficient: lower end of the range of the drag coefficient in descent on S0
@@ -396,7 +393,6 @@ SectionEnergy.energy_j: kinetic energy at landing
 Recovery.mass_kg: mass that descends, without the parachutes
 Recovery.total_mass_kg: mass that descends, with the parachutes
 Recovery.apogee_m: apogee above the ground
-Recovery.ground_m: height of the ground above sea level
 Recovery.wind_m_s: speed of the wind at its reference height
 Recovery.wind_reference_height_m: height above the ground at which the wind is given
 Recovery.wind_exponent: exponent of the power law of the wind; 0: the same wind at all heights
@@ -424,12 +420,10 @@ Size.height_m: height above sea level at which this rate is required, and at whi
 Size.axial_drag_coefficient: axial drag coefficient of the family on S0
 Size.descent_drag_coefficient: drag coefficient of the family in descent on S0; None: not flown
 Size.handbook_diameter_m: nominal diameters that follow from the range of the handbook, largest first
-Size.nominal_area_m2: nominal area S0
 Size.tape_material: material of the tape; "none": without tape
 Size.tape_material_from: reason for the tape
 Size.deployment_speed_m_s: speed at deployment
 Size.load_uncertainty: relative uncertainty of the design load
-Size.load_uncertainty_from: source of this uncertainty
 Size.smallest_margin_of_safety: margin of safety of the weakest member under the largest load
 Size.smallest_margin_member: this member
 Size.opening_load_n: largest opening load of the applicable methods
@@ -455,7 +449,6 @@ Trim.standard_error_deg: its standard error; None: angle 0 by symmetry
 Trim.stable: whether dC_m/dalpha is negative
 # steady()
 Steady.speed_m_s: speed of the free stream
-Steady.approach_speed_m_s: mean speed over the disk of the canopy, one diameter upstream of it
 Steady.coupling_iterations: number of coupling iterations
 Steady.ledger: force balance
 Steady.flow_domain: part of the flow domain that was solved
@@ -488,7 +481,6 @@ SteadyIteration.flow_iterations: number of iterations of the flow, or of its tim
 SteadyIteration.flow_residual: largest residual of the flow equations
 SteadyIteration.flow_converged: whether the flow converged
 SteadyIteration.cut_cells: number of cells that the canopy intersects
-SteadyIteration.approach_speed_m_s: mean speed over the disk of the canopy, one diameter upstream of it
 SteadyIteration.wall_time_s: wall time of the iteration
 UnsteadyResult.drag_standard_error_n: standard error of the mean drag; None: not known
 UnsteadyResult.strouhal: Strouhal number of the dominant frequency of the side force, with the inflated diameter
