@@ -34,8 +34,12 @@ int steps_in(double duration, double step, double time, int rows) {
 }
 
 double AdaptiveStepper::stable_step(const InflationState& state, const Cloth& cloth) const {
+  if (last_.cloth == &cloth && last_.x == state.cloth.x && last_.v == state.cloth.v) return last_.stable_step;
   const StabilityLimit limit = stability_limit(cloth, state.cloth);
-  if (limit.stable_step > shortest_stable_step) return limit.stable_step;
+  if (limit.stable_step > shortest_stable_step) {
+    last_ = {&cloth, state.cloth.x, state.cloth.v, limit.stable_step};
+    return limit.stable_step;
+  }
   const std::string place = limit.node < 0 ? limit.part : fmt::format("node {} ({})", limit.node, limit.part);
   throw Error(ExitCode::diverged,
               fmt::format("t = {:.6g} s: the stability limit has decreased to {:.3g} s at {}: the motion of "
