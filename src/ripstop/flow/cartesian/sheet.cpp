@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <tuple>
 #include <utility>
 
 #include "ripstop/core/error.h"
@@ -86,9 +84,9 @@ double passing(double asked, double yields, const PressureDrop& law) {
 }  // namespace
 
 SheetRows::SheetRows(const Axis& x, const Axis& y, const Axis& z, const std::vector<FlowBody>& bodies,
-                     bool quarter)
+                     bool quarter, ThreadTeam* team)
     : nx_(x.n), ny_(y.n), nz_(z.n), quarter_(quarter) {
-  add_faces(x, y, z, bodies);
+  add_faces(x, y, z, bodies, team);
   if (faces_.empty()) return;
   double across = 0;
   for (const Face& face : faces_)
@@ -97,7 +95,8 @@ SheetRows::SheetRows(const Axis& x, const Axis& y, const Axis& z, const std::vec
   lay_out();
 }
 
-void SheetRows::add_faces(const Axis& x, const Axis& y, const Axis& z, const std::vector<FlowBody>& bodies) {
+void SheetRows::add_faces(const Axis& x, const Axis& y, const Axis& z, const std::vector<FlowBody>& bodies,
+                          ThreadTeam* team) {
   for (int s = 0; s < static_cast<int>(bodies.size()); ++s) {
     const FlowBody& sheet = bodies[s];
     if (!sheet.is_sheet()) continue;
@@ -115,11 +114,11 @@ void SheetRows::add_faces(const Axis& x, const Axis& y, const Axis& z, const std
                     fmt::format("sheet: the motion of {} triangles for {}", count, sheet.surface.size()));
     }
     if (!quarter_) {
-      for (const SheetFace& geometry : faces_of(x, y, z, sheet))
+      for (const SheetFace& geometry : faces_of(x, y, z, sheet, team))
         faces_.push_back(face_of(geometry, s, sheet, {&x, &y, &z}));
       continue;
     }
-    std::vector<SheetFace> found = faces_of(whole_of(x), whole_of(y), z, sheet);
+    std::vector<SheetFace> found = faces_of(whole_of(x), whole_of(y), z, sheet, team);
     const std::vector<std::array<int, images>> triangles = take_quarter(found, nx_, ny_);
     for (std::size_t n = 0; n < found.size(); ++n) {
       const SheetFace& g = found[n];
@@ -189,14 +188,15 @@ void SheetRows::lay_out() {
     if (face.beyond != 0 && row_at != 0 && covered[row_at + g.i + (g.axis == 0 ? next : 0)] > 0)
       face.beyond = 0;
   }
-  std::map<std::size_t, std::pair<Face*, Face*>> outermost;  // of the layers that part the same two centres
+  std::vector<std::pair<Face*, Face*>> outermost(size);  // of the layers that part the same two centres
   for (Face& face : faces_) {
-    auto& [low, high] = outermost.try_emplace(face.at, &face, &face).first->second;
+    auto& [low, high] = outermost[face.at];
     const auto place = [](const Face* f) { return along(f->geometry.axis, f->geometry.point); };
-    if (place(&face) < place(low)) low = &face;
-    if (place(&face) > place(high)) high = &face;
+    if (!low || place(&face) < place(low)) low = &face;
+    if (!high || place(&face) > place(high)) high = &face;
   }
-  for (const auto& [at, layers] : outermost) layers.first->lowest = layers.second->highest = true;
+  for (const auto& [low, high] : outermost)
+    if (low) low->lowest = high->highest = true;
 }
 
 void SheetRows::begin(State& state, const Layout& layout) const {
@@ -212,15 +212,12 @@ void SheetRows::begin(State& state, const Layout& layout) const {
 void SheetRows::begin(State& state, const Layout& layout, const SheetRows& before) const {
   const std::vector<double> held = std::move(state.held), change = std::move(state.change);
   begin(state, layout);
-  std::map<std::tuple<int, int, int, int>, std::size_t> old;
-  for (const Face& face : before.faces_) {
-    const SheetFace& g = face.geometry;
-    old[{g.axis, g.i, g.j, g.k}] = face.at;
-  }
+  std::vector<char> parted(before.law_.size(), 0);
+  for (const Face& face : before.faces_) parted[face.at] = 1;
   for (const Face& face : faces_) {
     const SheetFace& g = face.geometry;
-    const auto found = old.find({g.axis, g.i, g.j, g.k});
-    if (found != old.end()) state.held[face.at] = held[found->second] + change[found->second];
+    const std::size_t row_at = before.offset(g.axis, g.j, g.k), old = row_at + g.i;
+    if (row_at > 0 && parted[old] != 0) state.held[face.at] = held[old] + change[old];
   }
 }
 

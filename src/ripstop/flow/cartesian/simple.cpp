@@ -113,7 +113,8 @@ void Solver::start_from(const Solver& coarse) {
 
 void Solver::place(PorousRows porous, const std::vector<FlowBody>& bodies) {
   in_the_way_.porous = std::move(porous);
-  const SheetRows before = std::exchange(in_the_way_.sheets, SheetRows(d_.x, d_.y, d_.z, bodies, d_.quarter));
+  const SheetRows before =
+      std::exchange(in_the_way_.sheets, SheetRows(d_.x, d_.y, d_.z, bodies, d_.quarter, &team_));
   in_the_way_.sheets.begin(s_, d_.layout, before);
   if (s_.untouched) s_.eased = in_the_way_.sheets.empty() ? 0 : eased_iterations;
   in_the_way_.wall = {};
