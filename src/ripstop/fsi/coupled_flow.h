@@ -114,7 +114,8 @@ class CoupledFlow {
  public:
   /// Throws Error(usage) where the engine cannot step in time, the flow has no single sheet, or the box no room for the
   /// mesh as it is cut.
-  CoupledFlow(const AirProblem& problem, const Mesh& mesh);
+  /// `team` shares the work of projection and transfer; the results do not depend on it.
+  CoupledFlow(const AirProblem& problem, const Mesh& mesh, ThreadTeam* team = nullptr);
 
   /// Largest length of the next step of the flow [s].
   double longest_step() { return flow_.longest_step(courant_); }
@@ -149,6 +150,7 @@ class CoupledFlow {
   SheetMotion sheet_motion(const std::vector<Vec3>& positions, const ClothMotion& predicted, double length,
                            const AirMemory& memory) const;
 
+  ThreadTeam* team_;
   std::shared_ptr<FlowEngine> engine_;
   FlowGrid grid_;
   double courant_, density_;       // the latter at deployment [kg/m3]
