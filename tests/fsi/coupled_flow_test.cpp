@@ -104,7 +104,8 @@ class Together {
   void step(double length, int least, double share) {
     const double stable = share * stability_limit(*cloth_, state_).stable_step;
     const int steps = std::max(least, static_cast<int>(std::ceil(length / stable)));
-    const ClothMotion motion = predict_motion(state_, *cloth_, air_.last_load(memory_), length, steps, team_);
+    const ClothMotion motion =
+        predict_motion(state_, *cloth_, air_.last_load(memory_), length, steps, team_, step_memory_);
     air_.step(x, motion, length, {}, memory_);
     double residual_traction = 0;
     loads = air_.transfer(x, {}, memory_, residual_traction);
@@ -121,6 +122,7 @@ class Together {
   ThreadTeam team_{1};
   ClothState state_ = start_state(*cloth_);
   AirMemory memory_;
+  StepMemory step_memory_;
 };
 
 /// How far the piston has come after `duration`, in steps of the air of `step`; the cloth takes `least` steps or more

@@ -87,7 +87,7 @@ std::vector<HistoryRow> AdaptiveStepper::compute(
   std::vector<HistoryRow> rows;
   for (int done = 0; done < span.rows; done += span.under_one_load) {
     const long long index = span.first + done;
-    step(state.cloth, cloth, load_of(index), dt, steps * span.under_one_load, team_, &state.record);
+    step(state.cloth, cloth, load_of(index), dt, steps * span.under_one_load, team_, &state.record, memory_);
     state.cloth.time = static_cast<double>(index + span.under_one_load) * row_;
     for (int i = 0; i < span.under_one_load; ++i)
       rows.push_back(row_of_history(state, index + i, steps, dt, i * steps));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "ripstop/cloth/cloth.h"
+#include "ripstop/cloth/step_memory.h"
 #include "ripstop/fsi/opening_record.h"
 
 namespace ripstop::inline fsi {
@@ -32,6 +33,7 @@ class AdaptiveStepper {
       : kind_(kind), fraction_(step_fraction), row_(row), team_(team) {}
 
   double row() const { return row_; }  // [s]
+  StepMemory& memory() const { return memory_; }
   /// The stability limit at the present strain [s]; evaluated once for the same state. Throws Error(diverged) for one that is too small for intact cloth.
   double stable_step(const InflationState& state, const Cloth& cloth) const;
   /// `step_fraction` of it [s].
@@ -65,6 +67,7 @@ class AdaptiveStepper {
   Step kind_;
   double fraction_, row_;
   ThreadTeam& team_;
+  mutable StepMemory memory_;
   mutable Evaluation last_;  // the end of a step is the start of the next one
 };
 

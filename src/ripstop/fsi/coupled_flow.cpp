@@ -103,9 +103,9 @@ std::vector<Vec3> smoothed_velocity(const MovingCells& cells, double width) {
 }  // namespace
 
 ClothMotion predict_motion(const ClothState& state, const Cloth& cloth, const Loads& last_load, double length,
-                           int steps, ThreadTeam& team) {
+                           int steps, ThreadTeam& team, StepMemory& memory) {
   ClothState moved = state;
-  ripstop::step(moved, cloth, last_load, length / steps, steps, team);
+  ripstop::step(moved, cloth, last_load, length / steps, steps, team, nullptr, memory);
   const std::vector<Vec3> before = positions(state, cloth);
   ClothMotion motion{positions(moved, cloth), steps};
   for (std::size_t n = 0; n < before.size(); ++n)

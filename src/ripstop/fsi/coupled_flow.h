@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "ripstop/cloth/cloth.h"
+#include "ripstop/cloth/step_memory.h"
 #include "ripstop/core/members.h"
 #include "ripstop/flow/flow.h"
 #include "ripstop/fsi/flow_at_density.h"
@@ -106,9 +107,10 @@ struct ClothMotion {
   int steps = 1;               // of the cloth within it
 };
 
-/// Predictor: `steps` steps of the cloth, together of `length` [s], under `last_load`.
+/// Predictor: `steps` steps of the cloth, together of `length` [s], under `last_load`. The memory saves time in steps
+/// from the same state.
 ClothMotion predict_motion(const ClothState& state, const Cloth& cloth, const Loads& last_load, double length,
-                           int steps, ThreadTeam& team);
+                           int steps, ThreadTeam& team, StepMemory& memory);
 
 class CoupledFlow {
  public:
