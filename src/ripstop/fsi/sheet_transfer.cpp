@@ -254,20 +254,28 @@ std::vector<double> pressures(const std::vector<Sample>& samples, const Reaches&
   return result;
 }
 
-// Mean of the pressure on one side of the cloth about a point, from the nearest values of the grid.
-double side_at(const Boxes& samples, Vec3 centre, double radius, double farthest,
-               std::optional<double> Sample::*side) {
+/// A weighted mean of values.
+struct Mean {
   double weights = 0, sum = 0;
-  for (; !(weights > 0) && radius < farthest; radius *= 1.5) {
+  bool known() const { return weights > 0; }
+  double value() const { return known() ? sum / weights : 0; }
+};
+
+// Difference of the mean pressures on both sides of the cloth about a point, each from the nearest values of the grid.
+double difference_at(const Boxes& samples, Vec3 centre, double radius, double farthest) {
+  Mean inner, outer;
+  for (; !(inner.known() && outer.known()) && radius < farthest; radius *= 1.5) {
+    const bool seeks_inner = !inner.known(), seeks_outer = !outer.known();
     samples.near(centre, radius, [&](const Sample& s) {
       const Vec3 d = (s.point - centre) / radius;
       const double inside = 1 - dot(d, d);
-      if (inside <= 0 || !(s.*side)) return;
+      if (inside <= 0) return;
       const double w = s.area * inside * inside;
-      weights += w, sum += w * *(s.*side);
+      if (seeks_inner && s.inside) inner.weights += w, inner.sum += w * *s.inside;
+      if (seeks_outer && s.outside) outer.weights += w, outer.sum += w * *s.outside;
     });
   }
-  return weights > 0 ? sum / weights : 0;
+  return inner.value() - outer.value();
 }
 
 // The air in a pleat is connected to that at its mouth, however narrow it is: cloth among folds takes the difference
@@ -285,8 +293,7 @@ void press_into_folds(const Boxes& samples, const Reaches& reaches, const Patchw
         all += w, folded += s.folded ? w : 0;
       });
     if (!(folded > 0)) return;
-    const double difference = side_at(samples, cloth.centre[c], radius, farthest, &Sample::inside) -
-                              side_at(samples, cloth.centre[c], radius, farthest, &Sample::outside);
+    const double difference = difference_at(samples, cloth.centre[c], radius, farthest);
     pressure[c] += folded / all * (difference - pressure[c]);
   });
 }
