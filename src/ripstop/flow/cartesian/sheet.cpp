@@ -9,6 +9,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/flow/cartesian/solid_faces.h"
 #include "ripstop/flow/cartesian/state.h"
+#include "ripstop/flow/cartesian/wall_distance.h"
 
 namespace ripstop::inline flow::cartesian {
 namespace {
@@ -309,57 +310,25 @@ void SheetRows::settle(State& state) const {
   }
 }
 
-Array<double> SheetRows::distance(const Axis& x, const Axis& y, const Axis& z, const Layout& layout) const {
-  const auto centre = [](const Axis& axis, int c) { return 0.5 * (axis.edge[c] + axis.edge[c + 1]); };
-  const auto cell = [&](int i, int j, int k) {
-    return i + static_cast<std::size_t>(nx_) * (j + static_cast<std::size_t>(ny_) * k);
-  };
-  std::vector<int> nearest(static_cast<std::size_t>(nx_) * ny_ * nz_, -1);
-  std::vector<double> square(nearest.size(), 1e300);
-  const auto offer = [&](int i, int j, int k, int face) {
-    if (face < 0) return;
-    const Vec3 apart = Vec3{centre(x, i), centre(y, j), centre(z, k)} - faces_[face].geometry.point;
-    const std::size_t c = cell(i, j, k);
-    if (dot(apart, apart) < square[c]) square[c] = dot(apart, apart), nearest[c] = face;
-  };
+Array<double> SheetRows::distance(const Axis& x, const Axis& y, const Axis& z, const Layout& layout,
+                                  ThreadTeam* team) const {
+  std::vector<Vec3> points;
+  points.reserve(faces_.size());
+  for (const Face& face : faces_) points.push_back(face.geometry.point);
+  WallDistance wall(x, y, z, std::move(points));
   for (int f = 0; f < static_cast<int>(faces_.size()); ++f) {
     const SheetFace& g = faces_[f].geometry;
-    offer(g.i, g.j, g.k, f);
-    if (!faces_[f].in_plane) offer(g.i - (g.axis == 0), g.j - (g.axis == 1), g.k - (g.axis == 2), f);
+    wall.offer(g.i, g.j, g.k, f);
+    if (!faces_[f].in_plane) wall.offer(g.i - (g.axis == 0), g.j - (g.axis == 1), g.k - (g.axis == 2), f);
   }
-  // The nearest face of a cell is nearly always that of one of its neighbours: swept to
-  // and fro along each axis.
-  for (int pass = 0; pass < 2; ++pass) {
-    for (int k = 0; k < nz_; ++k) {
-      for (int j = 0; j < ny_; ++j) {
-        for (int i = 1; i < nx_; ++i) offer(i, j, k, nearest[cell(i - 1, j, k)]);
-        for (int i = nx_ - 2; i >= 0; --i) offer(i, j, k, nearest[cell(i + 1, j, k)]);
-      }
-      for (int j = 1; j < ny_; ++j) {
-        for (int i = 0; i < nx_; ++i) offer(i, j, k, nearest[cell(i, j - 1, k)]);
-      }
-      for (int j = ny_ - 2; j >= 0; --j) {
-        for (int i = 0; i < nx_; ++i) offer(i, j, k, nearest[cell(i, j + 1, k)]);
-      }
-    }
-    for (int k = 1; k < nz_; ++k) {
-      for (int j = 0; j < ny_; ++j) {
-        for (int i = 0; i < nx_; ++i) offer(i, j, k, nearest[cell(i, j, k - 1)]);
-      }
-    }
-    for (int k = nz_ - 2; k >= 0; --k) {
-      for (int j = 0; j < ny_; ++j) {
-        for (int i = 0; i < nx_; ++i) offer(i, j, k, nearest[cell(i, j, k + 1)]);
-      }
-    }
-  }
+  wall.sweep(team);
   const auto least = [](const Axis& axis) { return *std::min_element(axis.width.begin(), axis.width.end()); };
   const double floor = 0.5 * std::min({least(x), least(y), least(z)});
   Array<double> result(layout.values(), floor);
   for (int k = 0; k < nz_; ++k) {
     for (int j = 0; j < ny_; ++j) {
       for (int i = 0; i < nx_; ++i)
-        result[layout.at(i, j, k)] = std::max(floor, std::sqrt(square[cell(i, j, k)]));
+        result[layout.at(i, j, k)] = std::max(floor, std::sqrt(wall.square(i, j, k)));
     }
   }
   return result;

@@ -52,7 +52,8 @@ class SheetRows {
 
   /// Distance of each cell's centre to the nearest face that a sheet parts [m], no less
   /// than half the least cell.
-  Array<double> distance(const Axis& x, const Axis& y, const Axis& z, const Layout& layout) const;
+  Array<double> distance(const Axis& x, const Axis& y, const Axis& z, const Layout& layout,
+                         ThreadTeam* team = nullptr) const;
   /// Loads of the air on the sheets, face by face; of a quarter those of the mirror images too.
   std::vector<SheetLoad> loads(const State& state, const Layout& layout) const;
 

@@ -139,7 +139,7 @@ FlowProgress Solver::iterate() {
   if (!s_.rate_u.empty()) stop_the_clock(s_);
   SheetRows& sheets = in_the_way_.sheets;
   if (!sheets.empty()) {
-    if (in_the_way_.wall.empty()) in_the_way_.wall = sheets.distance(d_.x, d_.y, d_.z, d_.layout);
+    if (in_the_way_.wall.empty()) in_the_way_.wall = sheets.distance(d_.x, d_.y, d_.z, d_.layout, &team_);
     sheets.update(s_, d_.layout, d_.air.density * d_.air.speed());
   }
   team_.run([this](int rank) {
