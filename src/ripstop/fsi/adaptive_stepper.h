@@ -34,7 +34,8 @@ class AdaptiveStepper {
 
   double row() const { return row_; }  // [s]
   StepMemory& memory() const { return memory_; }
-  /// The stability limit at the present strain [s]; evaluated once for the same state. Throws Error(diverged) for one that is too small for intact cloth.
+  /// The stability limit at the present strain [s]; evaluated once for the same state. Throws Error(diverged) for one
+  /// that is too small for intact cloth.
   double stable_step(const InflationState& state, const Cloth& cloth) const;
   /// `step_fraction` of it [s].
   double allowed_step(const InflationState& state, const Cloth& cloth) const;
