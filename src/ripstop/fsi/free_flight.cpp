@@ -131,7 +131,7 @@ FreeFlight::FreeFlight(FlightProblem problem)
       row_(problem_.air.flow.air.speed() / fastest(problem_) / least_rows_in(problem_.air.flow)),
       cloth_(flying_cloth(mesh_, problem_)),
       stepper_(AdaptiveStepper::Step::renewed, problem_.cloth.step_fraction, row_, team_),
-      air_(std::make_unique<CoupledFlow>(problem_.air, mesh_)) {
+      air_(std::make_unique<CoupledFlow>(problem_.air, mesh_, &team_)) {
   for (const double m : mesh_.mass) mass_ += m;
   const double diameter = std::sqrt(mouth_area(air_->cells(), problem_.shape) * 4 / std::numbers::pi);
   follow_ = follow_rate * fastest(problem_) / diameter;
