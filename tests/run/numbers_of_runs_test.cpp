@@ -11,6 +11,7 @@
 #include "../small_case.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/opening.h"
+#include "ripstop/case/payload.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/thread_team.h"
 #include "ripstop/flight/atmosphere.h"
@@ -383,6 +384,18 @@ TEST(RunNumbers, TheTimeOfACoupledInflationCountsTheFlowAndItsCellsAreCheckedFir
   const std::vector<std::string> warnings = opening_warnings(resolved, *solver);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("number of flow cells across the inflated canopy"), std::string::npos);
+}
+
+TEST(RunNumbers, AnOpeningAtTheRateOfDescentIsWarnedOf) {
+  Case given = small_opening();
+  given.payload.mass_kg = 2, given.flow.density_kg_m3 = 1.2;
+  const double rate = payload_first_speed(given, 1.2);
+  for (const double share : {1.2, 3.0}) {
+    given.flow.speed_m_s = share * rate;
+    const Settings resolved = resolve(opening_case(given));
+    const auto solver = make_opening(opening_problem(resolved, load_source(resolved), 1));
+    EXPECT_EQ(opening_warnings(resolved, *solver).size(), share < 1.5 ? 1u : 0u);
+  }
 }
 
 TEST(RunNumbers, ADampingIsSearchedOnTheMeasuredOpeningUnderThePressureOfTheProblem) {

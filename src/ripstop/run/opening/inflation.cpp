@@ -14,6 +14,7 @@
 #include "ripstop/case/payload.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/quantity_error.h"
+#include "ripstop/core/words.h"
 #include "ripstop/run/engine.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/opening/handbook.h"
@@ -22,6 +23,8 @@
 
 namespace ripstop::inline run {
 namespace {
+
+constexpr double slow_opening = 1.5;  // of the rate of descent (assumed)
 
 // The first work is so small that its residual is meaningless.
 constexpr double share_of_work_judged = 0.1;
@@ -146,6 +149,18 @@ void take_filling(InflationResult& r, const Settings& resolved, const Opening& s
   r.filling_distance = path / nominal_diameter(resolved.parachute());
 }
 
+/// A case made by `size` has the rate of descent as its speed.
+std::vector<std::string> slow_opening_warnings(const Settings& resolved) {
+  const FlowSettings& stream = resolved.flow();
+  if (!resolved.written().payload.mass_kg) return {};
+  const double rate = payload_first_speed(resolved.written(), stream.density_kg_m3);
+  if (stream.speed_m_s > slow_opening * rate) return {};
+  return {fmt::format(
+      "the opening begins at {} m/s, and the rate of descent of its payload is about {} m/s: give the "
+      "speed of the deployment with --speed or flow.speed_m_s",
+      rounded(stream.speed_m_s, 3), rounded(rate, 3))};
+}
+
 void take_quality(InflationResult& r, const Settings& resolved, const Opening& solver,
                   const InflationHistory& history) {
   r.energy_residual = energy_residual(history.frames);
@@ -187,6 +202,7 @@ void take_quality(InflationResult& r, const Settings& resolved, const Opening& s
   if (const auto text = handbook_disagreement(r.smooth_peak.value_or(r.peak_load), distance, r.handbook))
     judgement.add({*text});
   judgement.add(r.source.warnings);
+  judgement.add(slow_opening_warnings(resolved));
   judgement.add(mesh_warnings(resolved));
   if (solver.air()) judgement.add(air_warnings(resolved));
   judgement.add(strain_warnings(resolved, r.stress.strain));
@@ -269,8 +285,11 @@ std::string to_json(const InflationResult& result) {
 }
 
 std::vector<std::string> opening_warnings(const Settings& resolved, const Opening& solver) {
-  if (!solver.air()) return {};
-  return judge({{"cells_across", cells_across(resolved)}}).warnings;
+  std::vector<std::string> warnings = slow_opening_warnings(resolved);
+  if (solver.air())
+    for (std::string& text : judge({{"cells_across", cells_across(resolved)}}).warnings)
+      warnings.push_back(std::move(text));
+  return warnings;
 }
 
 double opening_seconds(const Opening& solver, const InflationState& start) {
