@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -60,6 +61,25 @@ void print_unsteady(const UnsteadyResult& unsteady) {
                                     : ""));
 }
 
+void print_cluster(const ClusterResult& cluster, double area) {
+  const std::size_t count = cluster.canopies.size();
+  print_row("cluster",
+            fmt::format("{} canopies at {:.4g} deg to the axis, S0 = {:.4f} m2 each; smallest gap {:.3g} m",
+                        count, cluster.spread_angle_deg, area / double(count), cluster.gap));
+  print_row("", fmt::format("forces inclined {} by {:.2g} deg; riser loads differ by {:.2g} %",
+                            cluster.force_angle_deg > 0 ? "outward" : "inward",
+                            std::abs(cluster.force_angle_deg), 100 * cluster.difference));
+  if (cluster.cluster_factor)
+    print_row("cluster factor",
+              fmt::format("{:.3f}, drag coefficient over that of one canopy", *cluster.cluster_factor));
+  for (std::size_t k = 0; k < count; ++k) {
+    const ClusterCanopy& canopy = cluster.canopies[k];
+    print_row(fmt::format("canopy {}", k + 1).c_str(),
+              fmt::format("riser load {:.1f} N, largest line load {:.2f} N, projected diameter {:.3f} m",
+                          canopy.force, canopy.max_line_tension, canopy.projected_diameter));
+  }
+}
+
 void print_result(const SteadyResult& r, const Settings& resolved, const fs::path& folder) {
   const auto row = print_row;
   print_text("\n{}\n", r.title);
@@ -84,11 +104,12 @@ void print_result(const SteadyResult& r, const Settings& resolved, const fs::pat
                       ? fmt::format("; in descent {:.2f} to {:.2f} (Knacke)", r.known_drag_coefficient->at(0),
                                     r.known_drag_coefficient->at(1))
                       : ""));
-  row("", fmt::format("{:.4f} on the projected area of {:.4f} m2", r.drag_area / r.size.projected_area,
-                      r.size.projected_area));
+  const double projected = r.size.projected_area * (r.cluster ? double(r.cluster->canopies.size()) : 1);
+  row("", fmt::format("{:.4f} on the projected area of {:.4f} m2", r.drag_area / projected, projected));
   row("projected diameter", fmt::format("{:.3f} m", r.size.projected_diameter));
   row("skirt diameter", fmt::format("{:.3f} m", r.size.skirt_diameter));
   print_stresses(r.max_line_tension, r.stress);
+  if (r.cluster) print_cluster(*r.cluster, r.reference_area);
   for (const BodyResult& body : r.bodies.value_or(std::vector<BodyResult>()))
     row(("body " + body.name).c_str(),
         fmt::format("drag {:.3g} N, coefficient {:.3f} on {:.4g} m2; side force {:.2g} N", body.drag,

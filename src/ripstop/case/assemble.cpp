@@ -6,6 +6,7 @@
 
 #include "ripstop/canopy/mirror.h"
 #include "ripstop/case/bodies.h"
+#include "ripstop/case/cluster.h"
 #include "ripstop/case/cost.h"
 #include "ripstop/core/error.h"
 #include "ripstop/flow/engines.h"
@@ -100,6 +101,12 @@ SteadyProblem steady_problem(const Settings& resolved, const CanopyMesh* own) {
                         std::nullopt,
                         {}};
   problem.own_mesh = own != nullptr;
+  if (const std::optional<ClusterKeys>& keys = resolved.written().cluster) {
+    if (own) require_one_canopy(resolved, "a run with a mesh of your own");
+    problem.cluster.emplace(std::move(problem.mesh), layout_of(*keys));
+    problem.mesh = problem.cluster->mesh();
+    problem.reference_area *= keys->canopies;
+  }
   if (const FlowSettings& flow = resolved.flow(); flow.unsteady) {
     const WatchKeys& keys = flow.watch;
     problem.averaging_window = {keys.courant, keys.standard_error, keys.shortest, keys.longest,

@@ -102,6 +102,7 @@ LoadSource load_source(const Settings& opening) {
 InflationProblem opening_problem(const Settings& opening, const LoadSource& source, int threads,
                                  const std::function<void()>& alive) {
   require_axial_stream(opening.flow(), "an opening");
+  require_one_canopy(opening, "an opening");
   InflationProblem problem;
   problem.mesh = parachute_mesh(opening);
   problem.settings = opening.inflation();

@@ -17,6 +17,7 @@
 #include "ripstop/run/engine.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/quality.h"
+#include "ripstop/run/steady/cluster_result.h"
 #include "ripstop/run/steady/coarse_start.h"
 #include "ripstop/run/steady/steady_parts.h"
 #include "ripstop/run/steady/warnings.h"
@@ -35,6 +36,7 @@ void take_quality(SteadyResult& r, const Settings& resolved, bool own_mesh) {
   const auto gap = [&](double force) { return std::abs(force / r.ledger.fluid_force - 1); };
   Judgement judgement = judge({{"ledger_gap", std::max(gap(r.ledger.nodal_load), gap(r.ledger.line_tension))},
                                {"momentum_deficit_gap", gap(r.ledger.momentum_deficit)}});
+  if (r.cluster) judgement.add(cluster_warnings(*r.cluster));
   judgement.add(margin_warnings(r.margins));
   judgement.add(warnings_of(resolved, r.stress.strain, own_mesh));
   const bool needs_cells = resolved.coupling().load == CanopyLoad::of_flow;
@@ -89,7 +91,8 @@ SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state,
   r.drag_coefficient = r.drag_area / r.reference_area;
   if (!solver.has_own_mesh())
     r.known_drag_coefficient = experience(resolved.parachute()).drag_coefficient.if_known();
-  r.size = canopy_size(solver.mesh(), state.shape);
+  r.size =
+      solver.cluster() ? mean_size(*solver.cluster(), state.shape) : canopy_size(solver.mesh(), state.shape);
   const ClothState cloth = solver.cloth_state(state);
   const std::vector<double> tensions = spring_tensions(solver.cloth(), cloth);
   for (const LineTension& t : line_tensions(solver.mesh(), tensions))
@@ -106,6 +109,7 @@ SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state,
   r.domain = solved_domain(solver, state);
   if (state.in_time) r.unsteady = unsteady_result(state.window, resolved);
   r.measured = resolved.measured_row();
+  if (solver.cluster()) r.cluster = cluster_result(solver, state, tensions, r.drag_coefficient, resolved);
   if (!state.body_forces.empty()) r.bodies = body_results(solver.bodies(), state, resolved);
   take_quality(r, resolved, solver.has_own_mesh());
   return r;
