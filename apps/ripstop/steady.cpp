@@ -80,6 +80,17 @@ void print_cluster(const ClusterResult& cluster, double area) {
   }
 }
 
+/// The members of the canopies that remain.
+void print_failure(const ClusterResult& cluster) {
+  const auto count = double(cluster.canopies.size());
+  const Margin* least = weakest(cluster.one_failed);
+  print_row("one canopy failed",
+            fmt::format("{} times the load of each of the others{}", rounded(count / (count - 1)),
+                        least ? fmt::format("; weakest member {}: margin of safety {:+.2f}", least->member,
+                                            *least->margin)
+                              : std::string()));
+}
+
 void print_result(const SteadyResult& r, const Settings& resolved, const fs::path& folder) {
   const auto row = print_row;
   print_text("\n{}\n", r.title);
@@ -116,6 +127,7 @@ void print_result(const SteadyResult& r, const Settings& resolved, const fs::pat
                     body.drag_coefficient, body.reference_area, body.side));
   print_payload(r);
   print_margins(r.margins);
+  if (r.cluster) print_failure(*r.cluster);
   row("force balance",
       fmt::format("air load {:.2f}, cloth load {:.2f}, line load {:.2f}, momentum deficit {:.2f} N",
                   r.last.fluid_force, r.last.nodal_load, r.last.line_tension, r.last.momentum_deficit));

@@ -445,6 +445,7 @@ Steady.flow_domain: part of the flow domain that was solved
 Steady.unsteady: means of the unsteady wake; None: steady flow
 Steady.payload: equilibrium with the payload; None: the speed is given
 Steady.bodies: loads on rigid bodies upstream; None: without any
+Steady.cluster: angles and loads of a cluster of canopies; None: a single canopy
 Steady.measured: row of [[measured]] of this speed; None: without one
 BodyResult.name: name of the body in the case
 BodyResult.drag_n: force along the stream
@@ -452,6 +453,19 @@ BodyResult.side_force_n: magnitude of the force across the stream
 BodyResult.moment_n_m: moment about the centre of the aft end (x, y, z)
 BodyResult.reference_area_m2: reference area of the body
 BodyResult.drag_coefficient: drag coefficient on the reference area of the body
+ClusterCanopy.azimuth_deg: azimuth about the axis of the cluster, from x
+ClusterCanopy.drag_n: force along the stream
+ClusterCanopy.riser_load_n: magnitude of the air load, which the riser carries
+ClusterCanopy.spreading_moment_n_m: moment about the confluence, positive where it increases the spread angle
+ClusterCanopy.max_line_tension_n: largest tension of a suspension line of this canopy
+ClusterCanopy.projected_diameter_m: projected diameter along the axis of this canopy
+ClusterResult.spread_angle_deg: angle between the axes of the canopies and of the cluster
+ClusterResult.force_angle_deg: mean angle between the force and the axis of a canopy, positive outward
+ClusterResult.gap_m: smallest distance between the cloth of two canopies
+ClusterResult.riser_load_difference: difference between the largest and smallest riser load over their mean
+ClusterResult.cluster_factor: drag coefficient over that of one canopy; None: not given
+ClusterResult.canopies: loads on each canopy
+ClusterResult.margins_one_failed: margins of the remaining canopies when one fails
 HeldPayload.mass_kg: mass of the payload
 HeldPayload.weight_n: weight of payload and parachute
 HeldPayload.payload_drag_n: drag of the payload

@@ -9,6 +9,7 @@
 
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/bodies.h"
+#include "ripstop/case/cluster.h"
 #include "ripstop/case/cost.h"
 #include "ripstop/case/deployment.h"
 #include "ripstop/core/error.h"

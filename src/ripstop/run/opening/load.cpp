@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "ripstop/case/cluster.h"
 #include "ripstop/case/payload.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/positive.h"
@@ -350,6 +351,7 @@ double slowest_opening(double mass, double drag_area, double height, double path
 }
 
 LoadResult run_load(const Settings& resolved, const LoadRequest& request) {
+  require_one_canopy(resolved, "an opening load");
   check_request(request);
   LoadResult r;
   r.title = resolved.title();

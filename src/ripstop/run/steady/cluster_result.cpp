@@ -57,6 +57,18 @@ ClusterResult cluster_result(const SteadySolver& solver, const SteadyState& stat
   return result;
 }
 
+Margins margins_after_failure(const SteadySolver& solver, std::vector<double> tensions, StressPeak stress,
+                              const Settings& resolved) {
+  const double canopies = solver.cluster()->canopies(), more = canopies / (canopies - 1);
+  for (double& tension : tensions) tension *= more;
+  stress.warp *= more, stress.weft *= more;
+  Margins margins = case_margins(resolved, solver.mesh(), tensions, stress);
+  std::erase_if(margins.members, [&](const Margin& m) { return resolved.hardware().contains(m.member); });
+  const Margin* least = weakest(margins);
+  margins.weakest = least ? least->member : "";
+  return margins;
+}
+
 CanopySize mean_size(const Cluster& cluster, const std::vector<Vec3>& shape) {
   CanopySize mean;
   const double share = 1.0 / cluster.canopies();
@@ -84,6 +96,8 @@ std::vector<std::string> cluster_warnings(const ClusterResult& cluster) {
         fmt::format("cluster: the riser loads of the canopies differ by {} %; their mean is not that "
                     "of a symmetric flow (use finer cells, or flow.unsteady = true)",
                     rounded(100 * cluster.difference, 2)));
+  for (const std::string& text : margin_warnings(cluster.one_failed))
+    all.push_back("when one canopy of the cluster fails, " + text);
   return all;
 }
 

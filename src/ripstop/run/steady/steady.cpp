@@ -109,7 +109,10 @@ SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state,
   r.domain = solved_domain(solver, state);
   if (state.in_time) r.unsteady = unsteady_result(state.window, resolved);
   r.measured = resolved.measured_row();
-  if (solver.cluster()) r.cluster = cluster_result(solver, state, tensions, r.drag_coefficient, resolved);
+  if (solver.cluster()) {
+    r.cluster = cluster_result(solver, state, tensions, r.drag_coefficient, resolved);
+    r.cluster->one_failed = margins_after_failure(solver, tensions, r.stress, resolved);
+  }
   if (!state.body_forces.empty()) r.bodies = body_results(solver.bodies(), state, resolved);
   take_quality(r, resolved, solver.has_own_mesh());
   return r;

@@ -125,6 +125,7 @@ struct ClusterResult {
   double difference = 0;                 // of the largest and smallest riser load, relative to the mean
   std::optional<double> cluster_factor;  // C_D over that of one canopy, where the case gives that
   std::vector<ClusterCanopy> canopies;
+  Margins one_failed;  // of the canopies that remain when one fails and they carry the same load
 };
 template <Of<ClusterResult> T, class Visit>
 void each_member(T& c, Visit&& visit) {
@@ -134,6 +135,7 @@ void each_member(T& c, Visit&& visit) {
   visit("riser_load_difference", c.difference);
   visit("cluster_factor", c.cluster_factor);
   visit("canopies", c.canopies);
+  visit("margins_one_failed", c.one_failed);
 }
 /// Of the drag to the weight, relative.
 inline constexpr double payload_tolerance = 1e-3;

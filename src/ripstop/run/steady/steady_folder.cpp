@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "ripstop/case/cluster.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/hash.h"
@@ -266,6 +267,7 @@ RunOfFolder run_of_folder(const fs::path& folder) {
 
 void require_for_opening(const Settings& resolved, const SteadyResult& result, const std::string& where,
                          const Settings& opening) {
+  require_one_canopy(resolved, "an opening");
   if (!result.converged)
     throw Error(ExitCode::bad_data, fmt::format("{}: the steady run has not converged", where));
   require_same_parachute(resolved, where, opening);
