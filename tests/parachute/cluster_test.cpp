@@ -15,7 +15,7 @@
 namespace ripstop {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
+constexpr double one_degree = std::numbers::pi / 180;
 
 CanopyMesh small_canopy() {
   Case given = flat_circular_case(1, 300, 20);
@@ -26,7 +26,7 @@ CanopyMesh small_canopy() {
 
 TEST(Cluster, TheMeshHasTheNodesSpringsAndCellsOfEveryCanopy) {
   const CanopyMesh one = small_canopy();
-  const Cluster cluster(one, {3, 20 * degree});
+  const Cluster cluster(one, {3, 20 * one_degree});
   const CanopyMesh all = cluster.mesh();
   EXPECT_EQ(all.node_count(), 3 * one.node_count());
   EXPECT_EQ(all.springs.size(), 3 * one.springs.size());
@@ -57,11 +57,11 @@ TEST(Cluster, EveryAxisIsInclinedByTheSpreadAngleAtTheHeightOfOneCanopy) {
     return centre;
   };
   for (int canopies = fewest_in_cluster; canopies <= most_in_cluster; ++canopies) {
-    const Cluster cluster(one, {canopies, 25 * degree});
+    const Cluster cluster(one, {canopies, 25 * one_degree});
     const CanopyMesh all = cluster.mesh();
     for (int k = 0; k < canopies; ++k) {
       const Vec3 centre = skirt(all, k, canopies), axis = centre - cluster.confluence();
-      EXPECT_NEAR(std::acos(axis.z / norm(axis)), 25 * degree, 1e-9);
+      EXPECT_NEAR(std::acos(axis.z / norm(axis)), 25 * one_degree, 1e-9);
       EXPECT_NEAR(
           std::remainder(std::atan2(axis.y, axis.x) - cluster.layout().azimuth(k), 2 * std::numbers::pi), 0,
           1e-9);
@@ -72,14 +72,14 @@ TEST(Cluster, EveryAxisIsInclinedByTheSpreadAngleAtTheHeightOfOneCanopy) {
 
 TEST(Cluster, OfTwoAndFourHasPlanesOfSymmetryAndOfThreeHasNot) {
   const CanopyMesh one = small_canopy();
-  EXPECT_TRUE(mirror_images(Cluster(one, {2, 20 * degree}).mesh()));
-  EXPECT_FALSE(mirror_images(Cluster(one, {3, 20 * degree}).mesh()));
-  EXPECT_TRUE(mirror_images(Cluster(one, {4, 20 * degree}).mesh()));
+  EXPECT_TRUE(mirror_images(Cluster(one, {2, 20 * one_degree}).mesh()));
+  EXPECT_FALSE(mirror_images(Cluster(one, {3, 20 * one_degree}).mesh()));
+  EXPECT_TRUE(mirror_images(Cluster(one, {4, 20 * one_degree}).mesh()));
 }
 
 TEST(Cluster, ACanopyThatTurnedAboutTheConfluenceIsTurnedBack) {
   const CanopyMesh one = small_canopy();
-  const Cluster cluster(one, {3, 20 * degree});
+  const Cluster cluster(one, {3, 20 * one_degree});
   const std::vector<Vec3> start = cluster.own(1, cluster.mesh().start);
   std::vector<Vec3> turned = start;
   const Vec3 end = one.start[one.fixed.front()];
@@ -93,15 +93,16 @@ TEST(Cluster, ACanopyThatTurnedAboutTheConfluenceIsTurnedBack) {
 }
 
 TEST(Cluster, TheGapIsTwiceTheDistanceFromThePlaneBetweenNeighbours) {
-  const Cluster cluster(small_canopy(), {2, 30 * degree});
+  const Cluster cluster(small_canopy(), {2, 30 * one_degree});
   const CanopyMesh all = cluster.mesh();
   double nearest = 1e300;
   for (const Cell& cell : cells_of(all))
     for (const int node : cell.corner)
       if (node >= 0) nearest = std::min(nearest, std::abs(all.start[node].x));
   EXPECT_NEAR(cluster.gap(all.start), 2 * nearest, 1e-12);
-  EXPECT_LT(
-      Cluster(small_canopy(), {2, 2 * degree}).gap(Cluster(small_canopy(), {2, 2 * degree}).mesh().start), 0);
+  EXPECT_LT(Cluster(small_canopy(), {2, 2 * one_degree})
+                .gap(Cluster(small_canopy(), {2, 2 * one_degree}).mesh().start),
+            0);
 }
 
 TEST(Cluster, RefusesACanopyThatIsHeldAtSeveralPoints) {
