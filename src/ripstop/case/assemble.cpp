@@ -35,6 +35,17 @@ CanopyMesh parachute_mesh(const Design& design, const Settings& resolved) {
   return in_flow(build_mesh(design, resolved.materials()), resolved);
 }
 
+std::optional<Cluster> cluster_of(const Settings& resolved) {
+  const std::optional<ClusterKeys>& keys = resolved.written().cluster;
+  if (!keys) return {};
+  return Cluster(parachute_mesh(resolved), layout_of(*keys));
+}
+
+CanopyMesh steady_mesh(const Settings& resolved, const CanopyMesh* own) {
+  const std::optional<Cluster> cluster = cluster_of(resolved);
+  return cluster ? cluster->mesh() : parachute_mesh(resolved, own);
+}
+
 FlowProblem flow_problem(const Settings& resolved) {
   const FlowSettings& flow = resolved.flow();
   FlowProblem problem;
@@ -94,19 +105,16 @@ std::string why_full_box(const Settings& resolved, const SteadyProblem& problem)
 
 SteadyProblem steady_problem(const Settings& resolved, const CanopyMesh* own) {
   require_axial_stream(resolved.flow(), "a steady run");
-  SteadyProblem problem{parachute_mesh(resolved, own),
+  if (own) require_one_canopy(resolved, "a run with a mesh of your own");
+  SteadyProblem problem{steady_mesh(resolved, own),
                         flow_problem(resolved),
                         own ? cloth_area(*own) : nominal_area(resolved.parachute()),
                         resolved.coupling(),
                         std::nullopt,
                         {}};
   problem.own_mesh = own != nullptr;
-  if (const std::optional<ClusterKeys>& keys = resolved.written().cluster) {
-    if (own) require_one_canopy(resolved, "a run with a mesh of your own");
-    problem.cluster.emplace(std::move(problem.mesh), layout_of(*keys));
-    problem.mesh = problem.cluster->mesh();
-    problem.reference_area *= keys->canopies;
-  }
+  problem.cluster = cluster_of(resolved);
+  problem.reference_area *= canopy_count(resolved.written());
   if (const FlowSettings& flow = resolved.flow(); flow.unsteady) {
     const WatchKeys& keys = flow.watch;
     problem.averaging_window = {keys.courant, keys.standard_error, keys.shortest, keys.longest,

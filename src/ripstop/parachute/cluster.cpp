@@ -136,6 +136,15 @@ void Cluster::put(int k, const std::vector<Vec3>& own, std::vector<Vec3>& all) c
     all[first + n] = confluence_ + axes.out(own[n] - end_of_riser_);
 }
 
+std::vector<Vec3> Cluster::overlaid(const std::vector<Vec3>& all) const {
+  std::vector<Vec3> x;
+  for (int k = 0; k < layout_.canopies; ++k) {
+    const std::vector<Vec3> one = own(k, all);
+    x.insert(x.end(), one.begin(), one.end());
+  }
+  return x;
+}
+
 std::vector<Vec3> Cluster::upright(std::vector<Vec3> own) const {
   const Vec3 arm = centroid_of_skirt(one_, own) - end_of_riser_;
   const Vec3 axis = arm / norm(arm);

@@ -50,6 +50,8 @@ class Cluster {
   std::vector<Vec3> own(int k, const std::vector<Vec3>& all) const;
   /// The converse.
   void put(int k, const std::vector<Vec3>& own, std::vector<Vec3>& all) const;
+  /// Positions of all nodes, each in the frame of its own canopy.
+  std::vector<Vec3> overlaid(const std::vector<Vec3>& all) const;
   /// Positions in the own frame, turned about the end of the riser until the centroid of the skirt is on the axis.
   std::vector<Vec3> upright(std::vector<Vec3> own) const;
 

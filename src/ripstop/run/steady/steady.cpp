@@ -186,9 +186,12 @@ SteadySolution run_steady(const Settings& resolved, SteadyObserver& observer,
 
 bool start_from(const Settings& other, const SteadyState& end, const SteadyRun& run, SteadyState& state) {
   const Settings& resolved = run.resolved;
-  const bool same_mesh =
-      json::parse(case_json(resolved)).at("parachute") == json::parse(case_json(other)).at("parachute") &&
-      end.shape.size() == state.shape.size() && end.pressure.size() == state.pressure.size();
+  const json here = json::parse(case_json(resolved)), before = json::parse(case_json(other));
+  const auto same = [&](const char* table) {
+    return here.value(table, json()) == before.value(table, json());
+  };
+  const bool same_mesh = same("parachute") && same("cluster") && end.shape.size() == state.shape.size() &&
+                         end.pressure.size() == state.pressure.size();
   if (!same_mesh) return false;
   state.shape = end.shape;
   state.pressure = end.pressure;
