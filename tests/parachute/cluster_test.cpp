@@ -18,7 +18,7 @@ namespace {
 constexpr double one_degree = std::numbers::pi / 180;
 
 CanopyMesh small_canopy() {
-  Case given = flat_circular_case(1, 300, 20);
+  Case given = flat_circular_case(1, 500, 20);
   given.parachute.riser.length_m = 1;
   given.parachute.mesh.line_segment_m = 0.25;
   return parachute_mesh(resolve(checked(given)));
