@@ -83,7 +83,7 @@ TEST(ClusterCase, CanopiesThatTouchAreRefusedWithTheAngleAndTheRiserThatSeparate
   ASSERT_TRUE(allowed.starts_with("at least ")) << allowed;
   given.cluster->spread_angle_deg = std::stod(allowed.substr(9));
   EXPECT_TRUE(validate(given).empty());
-  EXPECT_NE(problems.front().message.find("lengthen the riser by"), std::string::npos)
+  EXPECT_NE(problems.front().message.find("lengthen the riser ("), std::string::npos)
       << problems.front().message;
 }
 

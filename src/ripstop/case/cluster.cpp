@@ -78,25 +78,28 @@ void check_cluster(const Case& given, const FlowSettings& flow, Findings& findin
   const double needed[] = {room.x + across, room.y + across}, box[] = {flow.box_m.x, flow.box_m.y},
                core[] = {flow.core.size_m.x, flow.core.size_m.y};
   for (std::size_t i = 0; i < 2; ++i) {
-    if (box[i] <= needed[i] && findings.sound({"flow.box_m"}))
-      findings.add(fmt::format("flow.box_m[{}]", i), box[i], fmt::format("above {:.6g}", needed[i]),
-                   "the cluster does not fit into the flow domain");
+    const std::string allowed = fmt::format("at least {:.6g}", 1.001 * needed[i]);
+    const auto refuse = [&](const char* key, double value, const char* part) {
+      findings.add(fmt::format("{}[{}]", key, i), value, allowed,
+                   fmt::format("the cluster does not fit into the {}; it needs {} m", part, allowed));
+    };
+    if (box[i] <= needed[i] && findings.sound({"flow.box_m"})) refuse("flow.box_m", box[i], "flow domain");
     if (core[i] > 0 && core[i] < (1 - 1e-12) * needed[i] && findings.sound({"flow.core.size_m"}))
-      findings.add(fmt::format("flow.core.size_m[{}]", i), core[i], fmt::format("at least {:.6g}", needed[i]),
-                   "the cluster does not fit into the fine core");
+      refuse("flow.core.size_m", core[i], "fine core");
   }
   const int n = given.cluster->canopies;
   const double arm = cluster_arm(given), radius = 0.5 * inflated_diameter(given.parachute);
   const double share = narrow * radius / (arm * std::sin(std::numbers::pi / n));
   if (std::sin(layout_of(*given.cluster).spread) >= share) return;
   const bool possible = share < std::sin(degree * widest_spread);
-  const double longer = (std::max(1e-3, share / std::sin(layout_of(*given.cluster).spread)) - 1) * arm;
+  const double least = std::ceil(10 * std::asin(std::min(1.0, share)) / degree) / 10;
+  const double longer = (share / std::sin(layout_of(*given.cluster).spread) - 1) * arm;
+  const std::string wider = possible ? fmt::format("increase the angle to at least {:.1f}, or ", least) : "";
   findings.add("cluster.spread_angle_deg", given.cluster->spread_angle_deg,
-               possible ? fmt::format("at least {:.1f}", std::ceil(10 * std::asin(share) / degree) / 10) : "",
+               possible ? fmt::format("at least {:.1f}", least) : "",
                fmt::format("{} canopies of about {:.3g} m inflated diameter, {:.3g} m from the confluence, "
-                           "touch; {} the riser by {:.3g} m (parachute.riser.length_m = {:g})",
-                           n, 2 * radius, arm, possible ? "increase the angle, or lengthen" : "lengthen",
-                           longer, given.parachute.riser.length_m));
+                           "touch; {}lengthen the riser (parachute.riser.length_m = {:g}) by {:.3g} m",
+                           n, 2 * radius, arm, wider, given.parachute.riser.length_m, longer));
 }
 
 void require_one_canopy(const Settings& resolved, const char* what) {
