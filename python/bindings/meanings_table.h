@@ -457,8 +457,6 @@ ClusterCanopy.azimuth_deg: azimuth about the axis of the cluster, from x
 ClusterCanopy.drag_n: force along the stream
 ClusterCanopy.riser_load_n: magnitude of the air load, which the riser carries
 ClusterCanopy.spreading_moment_n_m: moment about the confluence, positive where it increases the spread angle
-ClusterCanopy.max_line_tension_n: largest tension of a suspension line of this canopy
-ClusterCanopy.projected_diameter_m: projected diameter along the axis of this canopy
 ClusterResult.spread_angle_deg: angle between the axes of the canopies and of the cluster
 ClusterResult.force_angle_deg: mean angle between the force and the axis of a canopy, positive outward
 ClusterResult.gap_m: smallest distance between the cloth of two canopies

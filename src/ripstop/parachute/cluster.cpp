@@ -90,7 +90,7 @@ Vec3 ClusterLayout::width() const {
 Cluster::Cluster(CanopyMesh one, ClusterLayout layout) : one_(std::move(one)), layout_(layout) {
   if (one_.fixed.size() != 1 || one_.rigging.skirt_nodes.empty() || one_.patches.empty())
     throw Error(ExitCode::usage,
-                fmt::format("a canopy of a cluster hangs on one point and has a mouth; this one has {} fixed "
+                fmt::format("a canopy of a cluster needs one fixed node and a skirt; this one has {} fixed "
                             "nodes and {} nodes at its skirt",
                             one_.fixed.size(), one_.rigging.skirt_nodes.size()));
   end_of_riser_ = one_.start[one_.fixed.front()];
