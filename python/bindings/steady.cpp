@@ -174,13 +174,13 @@ void add_steady(py::module_& module) {
   add_class<UnsteadyResult>(module, "UnsteadyResult", "Averages of an unsteady wake and their uncertainty.");
   add_class<HeldPayload>(module, "HeldPayload", "Equilibrium of drag and weight in a run with a payload.");
   add_class<BodyResult>(module, "BodyResult", "Loads on a rigid body of the case.");
-  add_class<ClusterCanopy>(module, "ClusterCanopy", "Loads on one canopy of a cluster.");
-  add_class<ClusterResult>(module, "ClusterResult", "Angles and loads of a cluster of canopies.");
   add_class<SolvedDomain>(module, "SolvedDomain",
                           "The part of the flow domain in which the flow was solved.");
   add_class<Margin>(module, "Margin",
                     "Margin of safety of one part; `unit` is the unit of load and strength.");
   add_class<Margins>(module, "Margins", "Margins of safety of all parts.");
+  add_class<ClusterCanopy>(module, "ClusterCanopy", "Loads on one canopy of a cluster.");
+  add_class<ClusterResult>(module, "ClusterResult", "Angles and loads of a cluster of canopies.");
   add_class<SteadyIteration>(module, "SteadyIteration", "Values of one coupling iteration.");
   add_flow(module);
   py::class_<PySteady> type(module, "Steady",
