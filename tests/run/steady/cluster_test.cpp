@@ -25,7 +25,11 @@ Case two_canopies(double spread_angle_deg) {
   given.flow.canopy_position_m = 1.5;
   given.flow.core = {.size_m = Vec3{2.1, 0.9, 1.2}, .start_m = 1.1, .growth = {}, .off_axis = {}};
   given.flow.symmetry = FlowSymmetry::automatic;
-  given.coupling.max_iterations = 8;
+  given.flow.max_iterations = 150;
+  given.flow.average_over = 30;
+  given.coupling.load = CanopyLoad::uniform;
+  given.coupling.drag_tolerance = 0.02;
+  given.coupling.max_iterations = 6;
   given.coupling.threads = 1;
   return given;
 }
@@ -54,7 +58,7 @@ TEST(SteadyCluster, CanopiesShareTheDragAndTheForcesBalance) {
                         [](const Margin& m) { return m.member == "riser"; })
         ->load;
   };
-  EXPECT_NEAR(riser(*r.margins) / a.force, 1, 0.02);
+  EXPECT_NEAR(riser(*r.margins) / a.force, 1, 0.05);
   EXPECT_NEAR(riser(r.cluster->one_failed), 2 * riser(*r.margins), 1e-9 * a.force);
   // Its drag area is not that of one canopy.
   EXPECT_NE(refusal_of([&] { carrying_run(finished_steady(folder.path / "run")); }, ExitCode::usage)
@@ -63,8 +67,7 @@ TEST(SteadyCluster, CanopiesShareTheDragAndTheForcesBalance) {
 }
 
 TEST(SteadyCluster, CanopiesThatTouchWhenInflatedAreRefusedWithBothRemedies) {
-  Case given = two_canopies(17);
-  given.flow.speed_m_s = 40;
+  Case given = two_canopies(9);
   SteadyObserver silent;
   Settings resolved = resolve(checked(given));
   const std::string text = refusal_of(
