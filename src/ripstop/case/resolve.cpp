@@ -144,10 +144,12 @@ Room room_for_bodies(const Case& written, const FlowSettings& flow, double d) {
 /// The default domain of a cluster, along each axis.
 struct ClusterRoom {
   Vec3 core, box;              // by which both are larger than for one canopy [m]
+  double upstream = 0;         // the part of it upstream of the skirts [m]
   std::array<int, 3> cells{};  // more, for cells as wide as those of one canopy
 };
 
-/// The box is as wide a canopy as for one canopy, and extends at least as far from the outer canopies.
+/// The box is that of one canopy times the root of their number: in relation to the area of all canopies it is as wide
+/// and as long. It extends at least as far from the outer canopies.
 ClusterRoom room_for_cluster(const Case& written, const FlowSettings& flow, double d) {
   ClusterRoom room;
   if (!written.cluster || flow.porosity_model != PorosityModel::sheet) return room;
@@ -158,7 +160,8 @@ ClusterRoom room_for_cluster(const Case& written, const FlowSettings& flow, doub
     return std::max({wider * one, more, least_box_over_core * (core + more) - one});
   };
   room.box = {widest(box.x, d * sheet_core.x, room.core.x), widest(box.y, d * sheet_core.y, room.core.y),
-              room.core.z};
+              wider * box.z + room.core.z};
+  room.upstream = wider * d * sheet_skirt + 0.5 * room.core.z;
   FlowSettings alone;
   alone.box_m = box, alone.cells = sheet_defaults.cells;
   alone.core.size_m = d * sheet_core, alone.core.growth = growth;
@@ -168,14 +171,19 @@ ClusterRoom room_for_cluster(const Case& written, const FlowSettings& flow, doub
   const auto growing = [&](double width, double h) {
     return std::log1p(width * (growth - 1) / (growth * h)) / std::log(growth);
   };
-  const auto more = [&](double outside, double larger_box, double larger_core, double h) {
-    const double added = 2 * (growing(outside + 0.5 * (larger_box - larger_core), h) - growing(outside, h));
+  const auto more = [&](double outside, double wider_by, double h) {
+    return growing(outside + wider_by, h) - growing(outside, h);
+  };
+  const auto across = [&](double outside, double larger_box, double larger_core, double h) {
+    const double added = 2 * more(outside, 0.5 * (larger_box - larger_core), h);
     return 2 * static_cast<int>(std::ceil(0.5 * (larger_core / h + added)));
   };
   const Vec3 outside = 0.5 * d * (sheet_box - sheet_core);
-  room.cells = {more(outside.x, room.box.x, room.core.x, cell.x),
-                more(outside.y, room.box.y, room.core.y, cell.y),
-                static_cast<int>(std::ceil(room.core.z / cell.z))};
+  const double before = alone.core.start_m, behind = box.z - before - alone.core.size_m.z;
+  const double along = room.core.z / cell.z + more(before, wider * d * sheet_skirt, cell.z) +
+                       more(behind, wider * (box.z - d * sheet_skirt), cell.z);
+  room.cells = {across(outside.x, room.box.x, room.core.x, cell.x),
+                across(outside.y, room.box.y, room.core.y, cell.y), static_cast<int>(std::ceil(along))};
   return room;
 }
 
@@ -280,7 +288,7 @@ void resolve_box(Follow& follow, Case& written, FlowSettings& flow) {
                       : room.cells == 0      ? model
                                              : fmt::format("{}, and {} for the bodies", model, room.cells));
   const double half = (flow.box_m.z + room.domain) / 2,
-               upstream = d * sheet_skirt + room.domain + 0.5 * cluster.core.z;
+               upstream = d * sheet_skirt + room.domain + cluster.upstream;
   flow.canopy_position_m =
       jet ? follow("flow.canopy_position_m", keys.canopy_position_m, flow.tunnel.nozzle_distance_m,
                    "flow.tunnel.nozzle_distance_m; the domain begins at the nozzle")
@@ -289,9 +297,9 @@ void resolve_box(Follow& follow, Case& written, FlowSettings& flow) {
                    room.domain > 0
                        ? std::string("four widths of the widest body upstream of the foremost body")
                    : cluster.core.z > 0
-                       ? fmt::format("{:g} inflated diameters of {:.3g} m and half the depth of "
-                                     "the inclined skirts",
-                                     sheet_skirt, d)
+                       ? fmt::format("{:g} inflated diameters of {:.3g} m times the root of {} canopies, and "
+                                     "half the depth of the inclined skirts",
+                                     sheet_skirt, d, canopy_count(written))
                        : fmt::format("{:g} inflated diameters of {:.3g} m", sheet_skirt, d))
           : follow("flow.canopy_position_m", keys.canopy_position_m, half, "half the length of the domain");
   resolve_core(follow, d, room, cluster, keys, flow);
