@@ -20,10 +20,10 @@ Case two_canopies(double spread_angle_deg) {
   given.parachute.riser.length_m = 0.6;
   given.parachute.mesh.line_segment_m = 0.2;
   given.cluster = ClusterKeys{2, spread_angle_deg, 0.7};
-  given.flow.box_m = Vec3{4.2, 3, 3.4};
-  given.flow.cells = {36, 24, 26};
-  given.flow.canopy_position_m = 1.5;
-  given.flow.core = {.size_m = Vec3{2.1, 0.9, 1.2}, .start_m = 1.1, .growth = {}, .off_axis = {}};
+  given.flow.box_m = Vec3{2.8, 1.8, 2.8};
+  given.flow.cells = {40, 26, 32};
+  given.flow.canopy_position_m = 1.2;
+  given.flow.core.size_m = Vec3{};
   given.flow.symmetry = FlowSymmetry::automatic;
   given.flow.max_iterations = 150;
   given.flow.average_over = 30;
