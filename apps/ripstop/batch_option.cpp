@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "number_option.h"
+#include "option.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/shell.h"
 #include "ripstop/core/visible.h"
@@ -32,20 +33,16 @@ std::vector<std::string> own_arguments() {
 
 void add_batch_options(CLI::App& command, BatchOptions& options) {
   CLI::Option* batch =
-      command
-          .add_option(
-              "--batch", options.system,
-              "Write job scripts for this batch system and print how to submit them; nothing is computed")
-          ->check(CLI::IsMember({"slurm"}))
-          ->option_text("slurm");
+      add_choice(command, "--batch", options.system, {"slurm"},
+                 "Write job scripts for this batch system and print how to submit them; nothing is computed");
   for (const char* other : {"--fresh", "--dry-run", "--check", "--hostfile", "--json"})
     if (CLI::Option* option = command.get_option_no_throw(other)) batch->excludes(option);
-  add_number(
-      command, "--hours", options.hours, from(0.1).up_to(8760),
-      "Time limit of a job of --batch [h] (default: an estimate; longer runs continue in the next job)")
+  add_number(command, "--hours", options.hours, from(0.1).up_to(8760), "Time limit of a job of --batch [h]")
+      ->default_str("an estimate; longer runs continue in the next job")
       ->needs(batch);
   add_number(command, "--cores", options.cores, from(1).up_to(1024),
-             "Cores of a job of --batch, or of each MPI rank (default: coupling.threads, else 4; 1 per rank)")
+             "Cores of a job of --batch, or of each MPI rank")
+      ->default_str(fmt::format("coupling.threads, else {}; 1 per rank", usual_cores))
       ->needs(batch);
 }
 

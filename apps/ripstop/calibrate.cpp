@@ -15,6 +15,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/run/opening/damping.h"
 #include "ripstop/run/run_folder.h"
+#include "warnings.h"
 
 namespace ripstop::cli {
 namespace {
@@ -61,6 +62,7 @@ int calibrate(const CalibrateArguments& options) {
   else
     fmt::print("C_a = {:.4f} N s/m3, misfit {:.2f} %; {}\n", found.best.damping, 100 * found.best.misfit,
                (folder / "misfit.png").string());
+  print_warnings(result.warnings);
   if (!found.at_edge) return 0;
   fmt::print(stderr,
              "the best C_a is a limit of the searched range {:g} to {:g}: widen it with --from and --to\n",
@@ -75,14 +77,14 @@ void add_damping(CLI::App& parent, int& status) {
   command->footer("Example: ripstop calibrate damping examples/stratos-iv/case.toml --cloth-nodes 3000");
   add_opening_options(*command, options->opening);
   const Range damping = above(0).up_to(key_range("inflation.damping_n_s_m3").high);
-  add_number(*command, "--from", options->search.from, damping, "Smallest C_a [N s/m3] (default: 4)");
-  add_number(*command, "--to", options->search.to, damping, "Largest C_a [N s/m3] (default: 16)");
+  add_number(*command, "--from", options->search.from, damping, "Smallest C_a [N s/m3]");
+  add_number(*command, "--to", options->search.to, damping, "Largest C_a [N s/m3]");
   add_number(*command, "--points", options->search.points, from(3).up_to(1000),
-             "Number of openings at logarithmically spaced C_a (default: 7)");
+             "Number of openings at logarithmically spaced C_a");
   add_number(*command, "--refinements", options->search.refinements, from(0).up_to(1000),
-             "Number of further openings around the best C_a (default: 4)");
-  command->add_option("--out", options->out,
-                      "Folder of the result (default: runs/<name of the case>-damping)");
+             "Number of further openings around the best C_a");
+  command->add_option("--out", options->out, "Folder of the result")
+      ->default_str("runs/<name of the case>-damping");
   add_json_option(*command, options->json);
   command->callback([options, &status] { status = calibrate(*options); });
 }

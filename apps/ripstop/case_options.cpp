@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "number_option.h"
+#include "option.h"
 #include "warnings.h"
 
 namespace ripstop::cli {
@@ -59,12 +60,10 @@ void add_flow_options(CLI::App& command, Overrides& overrides) {
   for (const EngineRecord& engine : engines()) words.push_back(engine.word);
   add_three(command, "--grid", overrides.grid, key_range("flow.cells"),
             "Cells NX,NY,NZ of the flow domain (case key flow.cells)");
-  command
-      .add_option_function<std::string>(
-          "--flow", [&overrides](const std::string& engine) { overrides.engine = engine; },
-          "Flow engine (case key flow.engine)")
-      ->check(CLI::IsMember(words))
-      ->option_text(fmt::format("{}", fmt::join(words, "|")));
+  CLI::Option* flow = command.add_option_function<std::string>(
+      "--flow", [&overrides](const std::string& engine) { overrides.engine = engine; },
+      "Flow engine (case key flow.engine)");
+  accept_words(flow, words);
   add_key_number(command, "--ranks", "flow.ranks", overrides.ranks, "MPI processes of one flow solution");
 }
 

@@ -84,6 +84,11 @@ void print(const Settings& resolved, const CaseSummary& s, std::size_t warnings)
   row("time", fmt::format("about {} on one core for a steady run with the built-in engine; typically 0.5 to "
                           "2 times this estimate",
                           rough_duration(s.core_time)));
+  if (resolved.flow().unsteady)
+    row("",
+        "with flow.unsteady the average in time follows, of a length that is not known in advance: "
+        "several times as long");
+  row("", "of an opening: ripstop inflate --check; of a flight the terminal shows the remaining time");
   for (std::size_t i = 0; i < resolved.inflation().reefing.size(); ++i) {
     const ReefingStage& stage = resolved.inflation().reefing[i];
     row(i == 0 ? "reefing" : "",
@@ -94,7 +99,7 @@ void print(const Settings& resolved, const CaseSummary& s, std::size_t warnings)
                     stage.line_m / std::numbers::pi / nominal_diameter(resolved.parachute()), stage.cut_s));
   }
   row("air",
-      fmt::format("{:.4g} m/s, {:.4g} kg/m3{}", s.air.speed, s.air.density,
+      fmt::format("{:.4g} m/s, {:.4g} kg/m3 ({}){}", s.air.speed, s.air.density, s.air_source,
                   resolved.payload().mass_kg ? "; initial speed of a steady run with the payload" : ""));
   row("problems", warnings == 0
                       ? "none"

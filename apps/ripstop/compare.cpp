@@ -14,6 +14,7 @@
 #include "json_option.h"
 #include "margins.h"
 #include "number_option.h"
+#include "option.h"
 #include "ripstop/core/claimed_folder.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/words.h"
@@ -36,7 +37,7 @@ struct CompareArguments : SweepOptions {
   std::vector<fs::path> others;  // runs after the first, which is in case_file
   fs::path measured;
   std::optional<double> shift;
-  std::string columns, decimal;
+  std::string columns, decimal = "auto";
 };
 
 void print(const RunComparison& c) {
@@ -74,13 +75,10 @@ int compare_measured(const CompareArguments& options) {
                     table::parse_decimal(options.decimal), options.shift});
   const fs::path& folder = options.settings.folder;
   if (!folder.empty()) write_measured_load(folder, result);
-  if (options.json) {
-    fmt::print("{}", to_json(result));
-    return 0;
-  }
-  print(result);
-  if (!folder.empty()) fmt::print("{} (load.svg, load.png, result.json)\n", folder.string());
-  return 0;
+  return show(result, options.json, [&] {
+    print(result);
+    if (!folder.empty()) fmt::print("{} (load.svg, load.png, result.json)\n", folder.string());
+  });
 }
 
 int compare_finished(const CompareArguments& options) {
@@ -93,11 +91,7 @@ int compare_finished(const CompareArguments& options) {
     write_file(folder / "result.json", to_json(result));
     write_report(runs, folder / report_name);
   }
-  if (options.json)
-    fmt::print("{}", to_json(result));
-  else
-    print(result);
-  return 0;
+  return show(result, options.json, [&] { print(result); });
 }
 
 void print(const Comparison& comparison) {
@@ -143,13 +137,10 @@ int compare(CompareArguments& options) {
       compare_models(points, rows, [&](std::size_t i) { return final_state(folder / points[i].folder); });
   write_comparison(folder, comparison);
   seal_sweep(folder);
-  if (options.json) {
-    fmt::print("{}", to_json(comparison));
-    return 0;
-  }
-  print(comparison);
-  fmt::print("{} (profile.svg, profile.png, profile.csv, sweep.csv)\n", (folder / "result.json").string());
-  return 0;
+  return show(comparison, options.json, [&] {
+    print(comparison);
+    fmt::print("{} (profile.svg, profile.png, profile.csv, sweep.csv)\n", (folder / "result.json").string());
+  });
 }
 
 }  // namespace
@@ -170,21 +161,19 @@ void add_compare(CLI::App& app, int& status) {
       "         ripstop compare examples/stratos-iv/case.toml --linear --speed 30");
   add_sweep_options(*command, *options);
   command->get_option("case")->description("Folder of a finished run, or with --linear a case file (TOML)");
-  command->add_option("others", options->others, "Folders of further finished runs")
-      ->check(CLI::ExistingDirectory);
+  add_run_folders(*command, "others", options->others, "Folders of further finished runs");
   add_key_number(*command, "--speed", "flow.speed_m_s", options->overrides.speed, "Nominal speed [m/s]");
   CLI::Option* linear =
       command->add_flag("--linear", options->linear, "Compare with the linear model, which uses only K_1");
-  command
-      ->add_option("--measured", options->measured,
-                   "Table of a measured load over time, compared with that of the opening")
-      ->check(CLI::ExistingFile)
+  add_existing_file(*command, "--measured", options->measured,
+                    "Table of a measured load over time, compared with that of the opening")
       ->excludes(linear);
   add_number(*command, "--time-shift", options->shift, from(-1e6).up_to(1e6),
-             "Shift added to the measured time [s] (default: least mean square difference of the loads)");
+             "Shift added to the measured time [s]")
+      ->default_str("least mean square difference of the loads");
   add_table_options(*command, options->columns, options->decimal, "force=Kraft [kN],time=Zeit [ms]");
-  command->add_option("--out", options->settings.folder,
-                      "Folder (default: with --linear runs/<name of the case>-compare, else none)");
+  command->add_option("--out", options->settings.folder, "Folder")
+      ->default_str("with --linear runs/<name of the case>-compare, else none");
   command->callback([options, &status] { status = compare(*options); });
 }
 

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 struct CompareFlightArguments {
   MeasuredFlightRequest request;
   fs::path case_file, out = "flight-log";
-  std::string columns, decimal;
+  std::string columns, decimal = "auto";
   double mass_uncertainty_percent = 1;
   bool json = false;
 };
@@ -78,12 +78,9 @@ int compare(CompareFlightArguments& options) {
   options.request.mass_uncertainty = options.mass_uncertainty_percent / 100;
   const MeasuredFlight flight = compare_flight(read_settings(options.case_file), options.request);
   write_measured_flight(options.out, flight);
-  if (options.json)
-    fmt::print("{}", to_json(flight));
-  else
-    print_result(flight, options.out);
+  const int status = show(flight, options.json, [&] { print_result(flight, options.out); });
   for (const std::string& note : flight.notes) fmt::print(stderr, "ripstop: {}\n", visible_line(note));
-  return 0;
+  return status;
 }
 
 }  // namespace
@@ -104,22 +101,22 @@ void add_compare_flight(CLI::App& app, int& status) {
       ->required();
   command->add_option("--case", options->case_file, "Case of the parachute (TOML)")->required();
   add_number(*command, "--mass", options->request.mass, key_range("payload.mass_kg"),
-             "Mass that descends, parachute included [kg] (default: payload and parachute of the case)");
+             "Mass that descends, parachute included [kg]")
+      ->default_str("payload and parachute of the case");
   add_number(*command, "--mass-uncertainty", options->mass_uncertainty_percent, from(0).up_to(50),
-             "Standard deviation of the mass [%] (default: 1)");
+             "Standard deviation of the mass [%]");
   add_number(*command, "--ground", options->request.ground, from(lowest_height).up_to(highest_height),
-             "Height of the ground above sea level [m] (default: 0)");
-  add_number(
-      *command, "--height-zero", options->request.height_zero, from(-highest_height).up_to(highest_height),
-      "Height above ground where the log reads 0 [m] (default: 0); the negative height of the ground for a "
-      "log above sea level");
+             "Height of the ground above sea level [m]");
+  add_number(*command, "--height-zero", options->request.height_zero,
+             from(-highest_height).up_to(highest_height),
+             "Height above ground where the log reads 0 [m]; the negative height of the ground for a "
+             "log above sea level");
   add_number(*command, "--body-drag-area", options->request.body_drag_area, from(0).up_to(100),
-             "Drag area of everything but the canopies [m2] (default: 0)");
+             "Drag area of everything but the canopies [m2]");
   command->add_option("--run", options->request.runs,
                       "Folder of a finished run of ripstop steady; repeatable");
   add_table_options(*command, options->columns, options->decimal, "altitude=Hoehe [m]");
-  command->add_option("--out", options->out,
-                      "Folder for report, plots and result.json (default: flight-log)");
+  command->add_option("--out", options->out, "Folder for report, plots and result.json");
   add_units_option(*command);
   add_json_option(*command, options->json);
   command->callback([options, &status] { status = compare(*options); });

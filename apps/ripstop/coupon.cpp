@@ -14,6 +14,7 @@
 #include "fit_report.h"
 #include "json_option.h"
 #include "number_option.h"
+#include "option.h"
 #include "ripstop/core/claimed_folder.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
@@ -78,7 +79,7 @@ int compare(const CouponArguments& options, const Fabric& fabric, ThreadTeam& te
 }
 
 void print_result(const CouponResult& r) {
-  fmt::print("{}: {:.4g} mm x {:.4g} mm at {} deg, yarns {:.3g} mm apart, {} nodes\n", r.material,
+  fmt::print("{}: {:.4g} mm x {:.4g} mm at {} deg, lattice spacing {:.3g} mm, {} nodes\n", r.material,
              1e3 * r.coupon.length, 1e3 * r.coupon.width, r.orientation, 1e3 * r.coupon.spacing,
              r.coupon.mesh.node_count());
   fmt::print("{:>9} {:>12} {:>9} {:>12}\n", "strain", "load N/m", "width", "corner peak");
@@ -118,26 +119,20 @@ void add_coupon(CLI::App& app, int& status) {
       ->required();
   command->add_option("--bench", options->bench,
                       "Test campaign (TOML) to compare with; its coupons are computed");
-  command
-      ->add_option("--orientation", options->shape.orientation,
-                   "Angle between load and warp: 0, 45 or 90 deg (default: 0)")
-      ->check(CLI::IsMember({0, 45, 90}))
-      ->option_text("0|45|90");
+  add_choice<int>(*command, "--orientation", options->shape.orientation, {{"0", 0}, {"45", 45}, {"90", 90}},
+                  "Angle between load and warp [deg]");
   command->add_flag(
       "--bias-lattice", options->shape.bias_lattice,
       "At 45 deg: lattice along the load and yarns along its diagonals, as in a canopy cut on the bias");
   add_number(*command, "--length", options->shape.length, above(0).up_to(100),
-             "Length between the clamps [m] (default: 0.2)");
-  add_number(*command, "--width", options->shape.width, above(0).up_to(10),
-             "Width of the coupon [m] (default: 0.05)");
-  add_number(*command, "--cells", options->shape.cells, from(2).up_to(200),
-             "Lattice cells across the width (default: 10)");
-  add_number(*command, "--strain", options->strain, above(0).up_to(2),
-             "Strain of the last point (default: the tested strain)");
-  add_number(*command, "--points", options->points, from(1).up_to(1000),
-             "Number of points of the curve (default: 12)");
+             "Length between the clamps [m]");
+  add_number(*command, "--width", options->shape.width, above(0).up_to(10), "Width of the coupon [m]");
+  add_number(*command, "--cells", options->shape.cells, from(2).up_to(200), "Lattice cells across the width");
+  add_number(*command, "--strain", options->strain, above(0).up_to(2), "Strain of the last point")
+      ->default_str("the tested strain");
+  add_number(*command, "--points", options->points, from(1).up_to(1000), "Number of points of the curve");
   add_number(*command, "--threads", options->threads, key_range("coupling.threads"),
-             "Number of threads (default: 0, all cores)");
+             "Number of threads; 0: all cores");
   command->add_option("--out", options->out,
                       "Folder for result.json, the curve, a picture and a file for ParaView");
   add_json_option(*command, options->json);

@@ -75,11 +75,9 @@ void add_descent(CLI::App& app, int& status) {
              "Mass of the payload, without the parachute [kg]")
       ->required();
   const Range height = from(lowest_height).up_to(highest_height);
-  add_numbers(*command, "--height", options->heights, height,
-              "Heights above sea level [m] (default: 0,300,1000,3000)");
-  add_number(*command, "--ground", options->ground, height,
-             "Height of the ground above sea level [m] (default: 0)");
-  command->add_option("--out", options->out, "Folder for result.json (default: none)");
+  add_numbers(*command, "--height", options->heights, height, "Heights above sea level [m]");
+  add_number(*command, "--ground", options->ground, height, "Height of the ground above sea level [m]");
+  command->add_option("--out", options->out, "Folder for result.json")->default_str("none");
   add_units_option(*command);
   add_json_option(*command, options->json);
   command->callback([options, &status] { status = descent(*options); });

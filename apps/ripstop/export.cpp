@@ -12,9 +12,12 @@
 
 #include "commands.h"
 #include "number_option.h"
+#include "option.h"
 #include "reefed_stage.h"
+#include "ripstop/case/payload.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
+#include "warnings.h"
 
 namespace ripstop::cli {
 namespace {
@@ -30,9 +33,14 @@ struct ExportArguments {
   bool force = false, drogue_released = false;
 };
 
-ExportedParachute exported_run(const fs::path& run, std::optional<double> speed, const fs::path& flight) {
-  return exported(finished_steady(run), speed,
-                  flight.empty() ? std::nullopt : std::optional(finished_flight(flight)));
+ExportedParachute exported_run(const fs::path& run, std::optional<double> speed, const fs::path& flight,
+                               const char* option) {
+  ExportedParachute p = exported(finished_steady(run), speed,
+                                 flight.empty() ? std::nullopt : std::optional(finished_flight(flight)));
+  if (p.speed_assumed)
+    print_warnings({fmt::format("{}: the lag of {:.3g} s is for a deployment at {:.3g} m/s ({}); give {}",
+                                p.run, p.lag, p.deployment_speed, p.deployment_speed_from, option)});
+  return p;
 }
 
 std::string text_of(const std::string& format, const ExportedRecovery& recovery) {
@@ -50,12 +58,15 @@ int export_run(const ExportArguments& options) {
   recovery.drogue_released = options.drogue_released;
   if (!options.drogue.empty())
     recovery.stages.push_back(
-        {exported_run(options.drogue, options.drogue_speed, options.drogue_flight), options.drogue_trigger});
+        {exported_run(options.drogue, options.drogue_speed, options.drogue_flight, "--drogue-speed"),
+         options.drogue_trigger});
   recovery.stages.push_back(
-      {exported_run(options.run, options.deployment_speed, options.flight), options.trigger});
+      {exported_run(options.run, options.deployment_speed, options.flight, "--deployment-speed"),
+       options.trigger});
   for (const std::string& text : options.reefing)
     recovery.stages.back().reefing.push_back(parse_reefed_stage(text));
   const std::string text = text_of(options.format, recovery);
+  for (const ExportedStage& stage : recovery.stages) print_warnings(stage.parachute.warnings);
   if (options.out.empty()) {
     fmt::print("{}", text);
     return 0;
@@ -76,49 +87,44 @@ void add_export(CLI::App& app, int& status) {
       "Example: ripstop export rocketpy runs/my-canopy --trigger 300 --out parachute.py\n"
       "         ripstop export openrocket-design runs/main --trigger 300 --drogue runs/drogue --out "
       "recovery.ork");
-  command
-      ->add_option(
-          "format", options->format,
-          "Format: rocketpy, openrocket (component database .orc), openrocket-design (.ork with deployment "
-          "events) or json")
-      ->required()
-      ->check(CLI::IsMember({"rocketpy", "openrocket", "openrocket-design", "json"}));
+  add_choice(
+      *command, "format", options->format, {"rocketpy", "openrocket", "openrocket-design", "json"},
+      "Format: rocketpy, openrocket (component database .orc), openrocket-design (.ork with deployment "
+      "events) or json")
+      ->required();
   command->add_option("run", options->run, "Folder of a finished run of ripstop steady")->required();
-  command
-      ->add_option(
-          "--flight", options->flight,
-          "Folder of a finished run of ripstop fly of this parachute: its coefficient in descent, in place "
-          "of the axial one")
-      ->check(CLI::ExistingDirectory);
+  add_run_folder(
+      *command, "--flight", options->flight,
+      "Folder of a finished run of ripstop fly of this parachute: its coefficient in descent, in place "
+      "of the axial one");
   command->add_option("--trigger", options->trigger,
-                      "Deployment trigger: apogee, or a height above the ground [m] (default: apogee)");
+                      "Deployment trigger: apogee, or a height above the ground [m]");
   add_number(*command, "--deployment-speed", options->deployment_speed, above(0).up_to(1000),
-             "Speed at deployment, which sets the filling time (lag) [m/s] (default: speed of the run)");
+             "Speed at deployment, which sets the filling time (lag) [m/s]")
+      ->default_str(fmt::format(
+          "speed of the run; with [payload], {:g} times the rate of descent, but at least {:g} m/s",
+          deployment_over_descent, least_deployment_speed));
   add_number(*command, "--drogue-speed", options->drogue_speed, above(0).up_to(1000),
-             "Speed at deployment of the drogue [m/s] (default: speed of its run)");
+             "Speed at deployment of the drogue [m/s]")
+      ->default_str("as --deployment-speed");
   CLI::Option* drogue =
-      command
-          ->add_option("--drogue", options->drogue,
-                       "Folder of a finished run of ripstop steady of the drogue, which opens first")
-          ->check(CLI::ExistingDirectory);
-  command
-      ->add_option("--drogue-flight", options->drogue_flight, "Folder of a run of ripstop fly of the drogue")
-      ->check(CLI::ExistingDirectory)
+      add_run_folder(*command, "--drogue", options->drogue,
+                     "Folder of a finished run of ripstop steady of the drogue, which opens first");
+  add_run_folder(*command, "--drogue-flight", options->drogue_flight,
+                 "Folder of a run of ripstop fly of the drogue")
       ->needs(drogue);
-  command
-      ->add_option("--drogue-trigger", options->drogue_trigger,
-                   "Deployment trigger of the drogue (default: apogee)")
+  command->add_option("--drogue-trigger", options->drogue_trigger, "Deployment trigger of the drogue")
       ->needs(drogue);
   command
       ->add_flag("--drogue-released", options->drogue_released,
-                 "The drogue is released when the main opens (default: it remains attached)")
+                 "The drogue is released when the main opens; without this option it remains attached")
       ->needs(drogue);
   command
       ->add_option("--reef", options->reefing,
                    "Reefed stage SHARE:SECONDS of the parachute, as for ripstop load; repeatable, in order")
       ->expected(1)
       ->take_all();
-  command->add_option("--out", options->out, "File (default: standard output)");
+  command->add_option("--out", options->out, "File")->default_str("standard output");
   command->add_flag("--force", options->force, "Replace an existing file");
   command->callback([options, &status] { status = export_run(*options); });
 }

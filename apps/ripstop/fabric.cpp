@@ -87,7 +87,8 @@ void add_fabric(CLI::App& app, int& status) {
   command->footer("Example: ripstop fabric examples/stratos-iv/case.toml --pressure 500 --out look");
   command->add_option("case", options->case_file, "Case file (TOML)")->required();
   add_number(*command, "--pressure", options->pressure, key_range("inflation.pressure_pa"),
-             "Uniform pressure difference over the canopy [Pa] (default: the dynamic pressure)");
+             "Uniform pressure difference over the canopy [Pa]")
+      ->default_str("the dynamic pressure");
   add_case_options(*command, options->overrides);
   command->add_option("--out", options->out, "Folder for result.json, a picture and files for ParaView");
   add_units_option(*command);

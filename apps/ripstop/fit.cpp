@@ -126,16 +126,19 @@ void add_fit(CLI::App& app, int& status) {
   command->footer("Example: ripstop fit examples/fit-ripstop/bench.toml --out my-cloth");
   command->add_option("bench", options->bench, "Test campaign (TOML): records, mass per area, thickness")
       ->required();
-  command->add_option("--out", options->out, "Folder for the material and its plots; default: runs/<name>");
-  add_number(*command, "--degree", options->degree, from(1).up_to(8),
-             "Degree of the curves (default: degree_rule of the campaign)");
+  command->add_option("--out", options->out, "Folder for the material and its plots")
+      ->default_str("runs/<name>");
+  add_number(*command, "--degree", options->degree, from(1).up_to(8), "Degree of the curves")
+      ->default_str("degree_rule of the campaign");
   add_table_options(*command, options->columns, options->decimal, "force=Kraft [kN],extension=Weg [mm]");
+  command->get_option("--decimal")->default_str("decimal of the campaign");
   command->add_flag("--zero-offset", options->zero_offset,
                     "Zero load at zero strain (K_0 = 0), also if the campaign has zero_offset = false");
-  command->add_flag("--no-coupons", options->no_coupons, "Do not fit xi and eps with virtual coupons");
+  command->add_flag("--no-coupons", options->no_coupons,
+                    "Do not fit shear fraction xi and bending fraction eps with virtual coupons");
   add_json_option(*command, options->json);
   add_number(*command, "--threads", options->threads, key_range("coupling.threads"),
-             "Number of threads (default: 0, all cores)");
+             "Number of threads; 0: all cores");
   command->callback([options, &status] { status = run(*options); });
 }
 

@@ -13,6 +13,7 @@
 #include "commands.h"
 #include "json_option.h"
 #include "number_option.h"
+#include "option.h"
 #include "progress.h"
 #include "ripstop/core/error.h"
 #include "ripstop/flow/stl.h"
@@ -89,35 +90,34 @@ void add_flow_parity(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand(
       "flow-parity", "Run the built-in flow engine and OpenFOAM on the same cells and compare them");
   add_three(*command, "--cells", options->settings.cells, key_range("flow.cells"),
-            "Cells along x, y and z of the flow domain of 2 x 2 x 4 m (default: 25,25,38)");
+            "Cells along x, y and z of the flow domain of 2 x 2 x 4 m");
   add_number(*command, "--speed", options->settings.speed, from(0.1).up_to(100),
-             "Speed of the free stream [m/s] (default: 10)");
+             "Speed of the free stream [m/s]");
   add_number(*command, "--density", options->settings.density, from(0.1).up_to(10),
-             "Density of the air [kg/m3] (default: 1.2)");
-  command
-      ->add_option("--surface", options->surface,
-                   "Canopy as a binary STL in the axes of the domain (z from 0 to 4 m); default: a rigid "
-                   "disk-gap-band")
-      ->check(CLI::ExistingFile);
-  command->add_option("--folder", options->settings.folder,
-                      "Folder that keeps the case of OpenFOAM; default: a temporary folder");
+             "Density of the air [kg/m3]");
+  add_existing_file(*command, "--surface", options->surface,
+                    "Canopy as a binary STL in the axes of the domain (z from 0 to 4 m)")
+      ->default_str("a rigid disk-gap-band");
+  command->add_option("--folder", options->settings.folder, "Folder that keeps the case of OpenFOAM")
+      ->default_str("a temporary folder");
   add_number(*command, "--ranks", options->settings.ranks, key_range("flow.ranks"),
-             "MPI processes of OpenFOAM (default: 1)");
+             "MPI processes of OpenFOAM");
   add_number(*command, "--threads", options->settings.threads, key_range("coupling.threads"),
-             "Threads of the built-in engine (default: 0, all cores)");
+             "Threads of the built-in engine; 0: all cores");
   command->add_flag("--incompressible", options->settings.incompressible,
                     "Constant density in both engines: porousSimpleFoam instead of rhoPorousSimpleFoam");
   command->add_flag("--slip", options->settings.slip,
                     "Frictionless walls instead of open boundaries at the sides of the domain");
-  command->add_flag("--coarse-start", options->settings.coarse_start,
-                    "Start the built-in engine from coarser grids, as in other commands; by default both "
-                    "engines start from the uniform stream");
+  command->add_flag(
+      "--coarse-start", options->settings.coarse_start,
+      "Start the built-in engine from coarser grids, as in other commands; without this option both "
+      "engines start from the uniform stream");
   std::vector<std::string> names;
   for (const ParityCanopy& canopy : parity_canopies) names.emplace_back(canopy.name);
-  command
-      ->add_option("--canopy", options->settings.canopies,
-                   "Compute only this canopy (default: all); repeatable")
-      ->check(CLI::IsMember(names));
+  accept_words(
+      command->add_option("--canopy", options->settings.canopies, "Compute only this canopy; repeatable"),
+      names)
+      ->default_str("all");
   command->footer(
       "The command fails when drag differs by more than 0.5 % (1 % above 20 m/s with compressible air).\n"
       "It also fails when the rms difference of velocity or pressure is above 1 % of the stream's speed or\n"

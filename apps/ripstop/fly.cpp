@@ -14,6 +14,7 @@
 #include "json_option.h"
 #include "margins.h"
 #include "number_option.h"
+#include "option.h"
 #include "progress.h"
 #include "ripstop/core/error.h"
 #include "ripstop/run/flight/flight_folder.h"
@@ -71,6 +72,7 @@ void print_flight(const FlightResult& r, const fs::path& folder, double wall_tim
   row("largest force of the lines",
       fmt::format("{:.1f} N, {:.2f} times the payload's weight", r.largest_load, r.load_factor));
   print_margins(r.margins);
+  if (r.air_source) row("air", fmt::format("{:.4g} kg/m3 at the start ({})", r.density, *r.air_source));
   row("path", fmt::format("{:.1f} m down, {:.1f} m over the ground", r.height_lost, r.distance));
   row("balance", fmt::format("energy {:.3f} % of the potential energy lost, momentum {:.3f} % of the weight",
                              100 * r.energy_residual, 100 * r.momentum_residual));
@@ -214,18 +216,17 @@ void add_fly(CLI::App& app, int& status) {
         options->overrides.set.push_back({"flight.start", "inflation", "--deploy"});
       },
       "Compute the coupled inflation with the payload first (flight.start = \"inflation\")");
-  command
-      ->add_option(
-          "--from", options->from,
-          "Run folder of ripstop inflate, coupled and with the payload; the flight continues from its end")
-      ->check(CLI::ExistingDirectory)
+  add_run_folder(
+      *command, "--from", options->from,
+      "Run folder of ripstop inflate, coupled and with the payload; the flight continues from its end")
       ->excludes(deploy);
   add_set_option(*command, options->overrides);
   add_number(*command, "--threads", options->threads, from(1).up_to(key_range("coupling.threads").high),
-             "Number of threads (default: coupling.threads)");
-  command->add_option("--out", options->out, "Run folder (default: runs/<name of the case>-flight)");
+             "Number of threads")
+      ->default_str("coupling.threads");
+  command->add_option("--out", options->out, "Run folder")->default_str("runs/<name of the case>-flight");
   command->add_flag("--fresh", options->fresh,
-                    "Replace the files of Ripstop in the run folder; default: resume the run");
+                    "Replace the files of Ripstop in the run folder; without this option the run resumes");
   add_json_option(*command, options->json);
   command->callback([options, &status] { status = fly(*options); });
 }

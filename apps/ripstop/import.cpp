@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "number_option.h"
+#include "option.h"
 #include "ripstop/case/case.h"
 #include "ripstop/case/chute_import.h"
 #include "ripstop/case/openrocket_import.h"
@@ -94,28 +95,28 @@ void add_import(CLI::App& app, int& status) {
       "         ripstop import examples/openrocket/two-stage-recovery.ork --device Drogue --out drogue.toml");
   command->add_option("file", options->file, "Design of openchute (.chute) or OpenRocket (.ork, .orc)")
       ->required();
-  command->add_option("--out", options->out, "Case file to write (default: name of the design with .toml)");
+  command->add_option("--out", options->out, "Case file to write")
+      ->default_str("name of the design with .toml");
   command->add_flag("--force", options->force, "Replace an existing case file");
-  add_number(*command, "--lines", options->line_count, key_range("parachute.lines.count"),
-             "Number of lines (default: that of the file, or one per gore)");
-  add_number(
-      *command, "--line-length", options->line_length, key_range("parachute.lines.length_m"),
-      "Length of a line [m] (default: that of the file, or the nominal diameter, 1.15 of it for OpenRocket)");
+  add_number(*command, "--lines", options->line_count, key_range("parachute.lines.count"), "Number of lines")
+      ->default_str(fmt::format("that of the file, else one per gore, {} for a cross and {} for OpenRocket",
+                                cross_line_count, openrocket_line_count));
+  add_number(*command, "--line-length", options->line_length, key_range("parachute.lines.length_m"),
+             "Length of a line [m]")
+      ->default_str(fmt::format("that of the file, or the nominal diameter, {:g} of it for OpenRocket",
+                                openrocket_line_share));
   add_number(*command, "--vent-diameter", options->vent_diameter, from(1e-4).up_to(100),
-             "Diameter of the vent [m] (default: that of the file; else 4 % of the widest diameter, 10 % for "
-             "OpenRocket)");
-  command->add_option("--device", options->device,
-                      "OpenRocket: number or name of the parachute (default: the only one)");
-  command
-      ->add_option(
-          "--diameter-is", options->diameter_is,
-          "OpenRocket: meaning of the diameter, \"constructed\" (cloth laid flat) or \"projected\" (open "
-          "canopy, with C_D on its area) (default: constructed)")
-      ->check(CLI::IsMember({"constructed", "projected"}));
-  add_number(
-      *command, "--mass", options->payload_mass, key_range("payload.mass_kg"),
-      "OpenRocket: mass of the payload, without the parachutes [kg] (default: that of a stored simulation, "
-      "without its parachutes)");
+             "Diameter of the vent [m]")
+      ->default_str(fmt::format("that of the file; else {:g} % of the widest diameter, {:g} % for OpenRocket",
+                                100 * chute_vent_share, 100 * openrocket_vent_share));
+  command->add_option("--device", options->device, "OpenRocket: number or name of the parachute")
+      ->default_str("the only one");
+  add_choice(*command, "--diameter-is", options->diameter_is, {"constructed", "projected"},
+             "OpenRocket: meaning of the diameter, \"constructed\" (cloth laid flat) or \"projected\" (open "
+             "canopy, with C_D on its area)");
+  add_number(*command, "--mass", options->payload_mass, key_range("payload.mass_kg"),
+             "OpenRocket: mass of the payload, without the parachutes [kg]")
+      ->default_str("that of a stored simulation, without its parachutes");
   command->callback([options, &status] { status = run(*options); });
 }
 

@@ -16,11 +16,13 @@
 #include "margins.h"
 #include "number_option.h"
 #include "opening.h"
+#include "option.h"
 #include "progress.h"
 #include "ripstop/case/deployment.h"
 #include "ripstop/core/error.h"
 #include "ripstop/run/opening/inflation_folder.h"
 #include "ripstop/run/opening/samples.h"
+#include "ripstop/run/opening/snatch.h"
 #include "ripstop/run/report/report.h"
 #include "stopping.h"
 #include "units_option.h"
@@ -55,8 +57,9 @@ void print_deployment(const Settings& resolved) {
     print_text("  {:<24} {:8.4f} s {:8.2f} m, payload at {:6.2f} m/s, container at {:6.2f} m/s\n", phase.name,
                phase.time, phase.path, phase.payload_speed, phase.bag_speed);
   if (deployment->phase(lines_stretch))
-    print_text("  snatch load {:.1f} N at {:.4f} s, speed difference {:.2f} m/s\n", deployment->snatch_load,
-               deployment->snatch_time, deployment->relative_speed);
+    print_text("  snatch load {:.1f} N at {:.4f} s, speed difference {:.2f} m/s at line stretch ({})\n",
+               deployment->snatch_load, deployment->snatch_time, deployment->relative_speed,
+               deployment_model);
   if (deployment->stopped) print_text("  did not open: {}\n", *deployment->stopped);
 }
 
@@ -127,6 +130,9 @@ void print_peaks(const InflationResult& r) {
                                      100 * (own / *s.measured_peak_n - 1), r.low_pass ? ", low-passed" : ""));
   }
   if (s.printed_peak_n) row("peak, model of the source", fmt::format("{:.1f} N", *s.printed_peak_n));
+  if (r.density && r.height && r.air_source)
+    row("air",
+        fmt::format("{:.4g} kg/m3, {:.4g} m above sea level ({})", *r.density, *r.height, *r.air_source));
   row("infinite-mass load",
       r.estimate.load ? fmt::format("{:.1f} N = C_x {:g} times {:.1f} N ({})", *r.estimate.load,
                                     r.estimate.coefficient, *r.estimate.drag, r.estimate.drag_from)
@@ -254,7 +260,6 @@ void print_samples(const SampleSummary& summary, const fs::path& folder) {
   row("finite-mass factor X_1", summary.finite_mass_factor);
   fmt::print("  files                          {} (result.json, sample-001 and following)\n",
              folder.string());
-  print_warnings(summary.warnings);
 }
 
 int sample(const InflateArguments& options, const InflationFolderSettings& settings, const Settings& resolved,
@@ -271,7 +276,7 @@ int sample(const InflateArguments& options, const InflationFolderSettings& setti
     fmt::print("{}", to_json(summary));
   else
     print_samples(summary, settings.run.folder);
-  return 0;
+  return print_result_warnings(summary.warnings, summary.usable);
 }
 
 int run(const InflateArguments& options) {
@@ -294,6 +299,7 @@ int run(const InflateArguments& options) {
     const std::unique_ptr<Opening> solver =
         make_opening(with_engine(resolved, opening_problem(resolved, source, threads)));
     print_start(*solver, solver->start(), source);
+    print_warnings(source.warnings);
     print_warnings(opening_warnings(resolved, *solver));
     return 0;
   }
@@ -335,23 +341,20 @@ void add_inflate(CLI::App& app, int& status) {
   add_opening_options(*command, options->opening);
   add_key_option(*command, "--damping", "inflation.damping_n_s_m3",
                  "Damping C_a per unit area of cloth [N s/m3]", options->opening.overrides);
-  command
-      ->add_option_function<std::string>(
-          "--air",
-          [options](const std::string& air) {
-            options->opening.overrides.set.push_back({"inflation.air", air, "--air"});
-          },
-          "Load model: uniform pressure, or flow that is computed in time together with the cloth (case key "
-          "inflation.air)")
-      ->check(CLI::IsMember({"uniform", "coupled"}))
-      ->option_text("uniform|coupled");
-  command->add_option("--out", options->out, "Run folder (default: runs/<name of the case>-inflation)");
+  CLI::Option* load_model = command->add_option_function<std::string>(
+      "--air",
+      [options](const std::string& air) {
+        options->opening.overrides.set.push_back({"inflation.air", air, "--air"});
+      },
+      "Load model: uniform pressure, or flow that is computed in time together with the cloth (case key "
+      "inflation.air)");
+  accept_words(load_model, {"uniform", "coupled"});
+  command->add_option("--out", options->out, "Run folder")->default_str("runs/<name of the case>-inflation");
   command->add_flag("--fresh", options->fresh,
-                    "Replace the files of Ripstop in the run folder; default: resume the run");
-  add_number(
-      *command, "--samples", options->samples, from(2).up_to(1000),
-      "Number of openings with different random perturbations of the folds, for mean and scatter (default: "
-      "one opening as in the case)");
+                    "Replace the files of Ripstop in the run folder; without this option the run resumes");
+  add_number(*command, "--samples", options->samples, from(2).up_to(1000),
+             "Number of openings with different random perturbations of the folds, for mean and scatter")
+      ->default_str("one opening as in the case");
   command->add_flag("--check", options->check,
                     "Fold the canopy, print strain, pressure and time step, and stop");
   add_units_option(*command);

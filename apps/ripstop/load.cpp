@@ -17,6 +17,7 @@
 #include "json_option.h"
 #include "margins.h"
 #include "number_option.h"
+#include "option.h"
 #include "reefed_stage.h"
 #include "ripstop/core/error.h"
 #include "ripstop/flight/atmosphere.h"
@@ -39,13 +40,19 @@ struct LoadArguments {
   double margin = 0;
 };
 
+std::string air_text(double height, double density, const std::string& from) {
+  return fmt::format("{:.4g} m above sea level, {:.4g} kg/m3 ({})", height, density, from);
+}
+
 /// The caution is printed where it differs from that of the stage before.
 void print_stage(const StageLoads& s, const LoadResult& r, const std::string& known_caution) {
   print_text(
-      "\nat {:.2f} s: {:.3g} m/s, {:.4g} m above sea level, drag area {:.3g} to {:.3g} m2\n"
+      "\nat {:.2f} s: {:.3g} m/s on a path {:.3g} deg below the horizon, {:.4g} m above sea level, {:.4g} "
+      "kg/m3, "
+      "drag area {:.3g} to {:.3g} m2\n"
       "  filling time {:.3g} s (n = {:.3g}), ballistic parameter {:.3g}, mass ratio {:.3g}\n",
-      s.begin, s.speed, s.height, s.drag_area_before, s.drag_area, s.filling_time, s.filling_constant,
-      s.ballistic_parameter, s.mass_ratio);
+      s.begin, s.speed, s.path_angle, s.height, s.density, s.drag_area_before, s.drag_area, s.filling_time,
+      s.filling_constant, s.ballistic_parameter, s.mass_ratio);
   const int width = both_units() ? 24 : 10;
   fmt::print("  {:<18} {:>{}} {:>8}  {:<8} {}\n", "method", "load", width, "time s", "use for", "reason");
   std::vector<std::string> notes;  // each is printed once, below the table
@@ -65,8 +72,8 @@ void print_stage(const StageLoads& s, const LoadResult& r, const std::string& kn
   const auto applicable =
       std::count_if(s.methods.begin(), s.methods.end(), [](const MethodLoad& m) { return m.applies; });
   if (applicable > 1)
-    print_text("  applicable methods: {:.1f} to {:.1f} N, spread {:.0f} %\n", s.lowest, s.highest,
-               100 * s.spread);
+    print_text("  applicable methods: {:.1f} to {:.1f} N, spread (highest - lowest) / mean {:.0f} %\n",
+               s.lowest, s.highest, 100 * s.spread);
   else if (applicable == 1)
     print_text("  one applicable method: {:.1f} N\n", s.lowest);
   else
@@ -76,9 +83,14 @@ void print_stage(const StageLoads& s, const LoadResult& r, const std::string& kn
 }
 
 void print_snatch(const SnatchResult& s) {
-  print_text("snatch load {:.1f} N (speed difference {:.3g} m/s: {}), {:.1f} N per line{}\n", s.load,
-             s.speed_difference, s.from, s.line_load,
+  print_text("snatch load {:.1f} N (speed difference {:.3g} m/s: {}; {}), {:.1f} N per line{}\n", s.load,
+             s.speed_difference, s.from, s.model, s.line_load,
              s.line_margin ? fmt::format(", breaking load / snatch load {:.2f}", *s.line_margin) : "");
+  if (s.riser_margin) print_text("riser: breaking load / snatch load {:.2f}\n", *s.riser_margin);
+  if (s.other_load)
+    print_text("snatch load {:.1f} N (speed difference {:.3g} m/s: [deployment] of the case; {})\n",
+               *s.other_load, *s.other_speed_difference, deployment_model);
+  if (s.changes.empty()) return;
   const auto cell = [](const std::optional<double>& load) {
     return load ? in_units(fmt::format("{:.1f} N", *load)) : std::string("breaks");
   };
@@ -95,8 +107,9 @@ void print_snatch(const SnatchResult& s) {
 }
 
 void print_fastest(const FastestResult& r, const fs::path& folder) {
-  print_text("{}\n  payload {:.4g} kg, parachute {:.3g} kg, {:.4g} m above sea level\n", r.title,
-             r.payload_mass, r.parachute_mass, r.height);
+  print_text("{}\n  payload {:.4g} kg, parachute {:.3g} kg\n", r.title, r.payload_mass, r.parachute_mass);
+  print_text("  at line stretch: path {:.3g} deg below the horizon, {}\n", r.path_angle,
+             air_text(r.height, r.density, r.air_source));
   print_text("  FASTEST SAFE DEPLOYMENT {}\n", safe_speed_text(r.design()));
   print_text("  margin of safety {:g} of every member; uncertainty of the load {:.0f} %: {}\n\n", r.margin,
              100 * r.load_uncertainty, r.load_uncertainty_from);
@@ -105,6 +118,7 @@ void print_fastest(const FastestResult& r, const fs::path& folder) {
                s.applies                     ? ""
                : s.method == r.design_method ? "; " + s.note
                                              : "; not applicable: " + s.note);
+  if (r.snatch) print_snatch(*r.snatch);
   print_text("  USE {}\n", r.advice);
   print_text("{} (result.json)\n", folder.string());
 }
@@ -112,6 +126,8 @@ void print_fastest(const FastestResult& r, const fs::path& folder) {
 void print_result(const LoadResult& r, const fs::path& folder) {
   print_text("{}\n  payload {:.4g} kg, parachute {:.3g} kg, S0 {:.4g} m2\n", r.title, r.payload_mass,
              r.parachute_mass, r.reference_area);
+  print_text("  at line stretch: {:.4g} m/s, path {:.3g} deg below the horizon, {}\n", r.speed, r.path_angle,
+             air_text(r.height, r.density, r.air_source));
   print_text(
       "  C_D {:.3f}: {}\n  C_x {:.2f}: {}\n  filling distance {:.3g} D0, exponent of the drag area over time "
       "{:g} "
@@ -169,28 +185,28 @@ int load(LoadArguments& options) {
 
 void add_coefficients(CLI::App& command, LoadRequest& r) {
   add_number(command, "--drag-coefficient", r.drag_coefficient, key_range("inflation.drag_coefficient"),
-             "Drag coefficient on S0 (default: of the --steady run, else Knacke's)");
+             "Drag coefficient on S0")
+      ->default_str("of the --steady run, else inflation.drag_coefficient of the case, else Knacke's");
   add_number(command, "--opening-coefficient", r.opening_coefficient, above(0).up_to(10),
-             "Opening force coefficient C_x (default: of the canopy family)");
-  add_number(
-      command, "--filling-constant", r.filling_constant, above(0).up_to(1000),
-      "Filling distance n in t_f = n D0 / v (default: of the canopy family; below 46 m/s n is multiplied "
-      "by 4.0 v^0.15 / 8, v in ft/s)");
+             "Opening force coefficient C_x")
+      ->default_str("of the canopy family");
+  add_number(command, "--filling-constant", r.filling_constant, above(0).up_to(1000),
+             "Filling distance n in t_f = n D0 / v; that of a family is multiplied by 4.0 v^0.15 / 8 below "
+             "46 m/s (v in "
+             "ft/s)")
+      ->default_str("of the canopy family");
   add_number(command, "--filling-exponent", r.filling_exponent, above(0).up_to(20),
-             "Exponent of the drag area over time (default: of the canopy family)");
+             "Exponent of the drag area over time")
+      ->default_str("of the canopy family");
   add_number(command, "--impulse-integral", r.impulse_integral, above(0).up_to(1),
-             "Mean over peak force during filling, for the momentum-impulse method (default: 0.5)");
-  command.add_option("--steady", r.steady, "Run folder of ripstop steady or fly that provides the drag area")
-      ->check(CLI::ExistingDirectory);
-  command
-      .add_option("--opening", r.opening,
-                  "Run folder of ripstop inflate that provides the drag area over distance")
-      ->check(CLI::ExistingDirectory);
-  command
-      .add_option(
-          "--from", r.filling_from,
-          "Run folder of ripstop inflate that provides filling constant n and exponent of the drag area")
-      ->check(CLI::ExistingDirectory);
+             "Mean over peak force during filling, for the momentum-impulse method");
+  add_run_folder(command, "--steady", r.steady,
+                 "Run folder of ripstop steady or fly that provides the drag area");
+  add_run_folder(command, "--opening", r.opening,
+                 "Run folder of ripstop inflate that provides the drag area over distance");
+  add_run_folder(
+      command, "--from", r.filling_from,
+      "Run folder of ripstop inflate that provides filling constant n and exponent of the drag area");
   add_number(command, "--measured-load", r.measured_load, above(0).up_to(1e8),
              "Opening load measured at this speed and mass, which becomes the design load [N]");
   add_number(command, "--snatch-speed", r.snatch_speed, above(0).up_to(1000),
@@ -198,7 +214,8 @@ void add_coefficients(CLI::App& command, LoadRequest& r) {
   add_number(command, "--packed-area", r.packed_drag_area, above(0).up_to(1e4),
              "Drag area of the packed canopy with its pilot chute, to compute that speed difference [m2]");
   add_number(command, "--payload-area", r.payload_drag_area, from(0).up_to(1e4),
-             "Drag area of the payload [m2] (default: payload.drag_area_m2 of the case)");
+             "Drag area of the payload [m2]")
+      ->default_str("payload.drag_area_m2 of the case");
 }
 
 }  // namespace
@@ -212,27 +229,30 @@ void add_load(CLI::App& app, int& status) {
       "0.1:2\n"
       "         ripstop load examples/flat-circular/case.toml --mass 2.4 --fastest");
   command->add_option("case", options->case_file, "Case file (TOML)")->required();
-  add_number(*command, "--mass", options->mass, key_range("payload.mass_kg"),
-             "Mass of the payload [kg] (default: payload.mass_kg of the case)");
+  add_number(*command, "--mass", options->mass, key_range("payload.mass_kg"), "Mass of the payload [kg]")
+      ->default_str("payload.mass_kg of the case");
   CLI::Option* speed =
       add_number(*command, "--speed", options->speed, above(0).up_to(1000), "Airspeed at line stretch [m/s]");
   CLI::Option* fastest =
       command
-          ->add_flag("--fastest", options->fastest,
-                     "Find the largest airspeed at line stretch at which tape or hem, lines, riser and "
-                     "[hardware] keep their margin of safety, by every method")
+          ->add_flag(
+              "--fastest", options->fastest,
+              "Find the largest airspeed at line stretch at which tape or hem, lines, riser and "
+              "[hardware] keep their margin of safety, by every method. The snatch load is included if its "
+              "speed difference is known")
           ->excludes(speed);
   add_number(*command, "--margin", options->margin, from(0).up_to(100),
-             "Margin of safety that every member keeps with --fastest (default: 0)")
+             "Margin of safety that every member keeps with --fastest")
       ->needs(fastest);
   const Range height = from(lowest_height).up_to(highest_height);
   add_number(*command, "--height", options->height, height,
-             "Height above sea level at line stretch [m] (default: flow.height_m if above the ground, else "
-             "1000 m above it)");
+             "Height above sea level at line stretch, with the air of the standard atmosphere there [m]")
+      ->default_str("height and density of the case");
   add_number(*command, "--ground", options->request.ground, height,
-             "Height of the ground above sea level [m] (default: 0)");
+             "Height of the ground above sea level, where the flight ends [m]")
+      ->default_str("sea level with --height, else none");
   add_number(*command, "--angle", options->request.path_angle, from(-90).up_to(90),
-             "Angle of the flight path below the horizon [deg] (default: 90)");
+             "Angle of the flight path below the horizon [deg]");
   command
       ->add_option("--reef", options->reefing,
                    "Reefed stage SHARE:SECONDS: fraction of the full drag area (0 to 1) and duration; "
@@ -241,7 +261,7 @@ void add_load(CLI::App& app, int& status) {
       ->take_all();
   add_coefficients(*command, options->request);
   add_set_option(*command, options->overrides);
-  command->add_option("--out", options->out, "Folder (default: runs/load)");
+  command->add_option("--out", options->out, "Folder");
   add_units_option(*command);
   add_json_option(*command, options->json);
   command->callback([options, &status] { status = load(*options); });

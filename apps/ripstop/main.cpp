@@ -1,19 +1,20 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <system_error>
 
 #include "commands.h"
+#include "option.h"
 #include "ripstop/case/quantity_keys.h"
 #include "ripstop/core/build_info.h"
 #include "ripstop/core/error.h"
-#include "ripstop/core/toml/problem.h"
+#include "ripstop/core/reasons.h"
 #include "ripstop/core/visible.h"
 #include "stopping.h"
 
@@ -23,57 +24,6 @@ namespace {
 int failed(ExitCode code, const std::string& message) {
   std::fprintf(stderr, "ripstop: %s\n", visible(message).c_str());
   return static_cast<int>(code);
-}
-
-/// Meaning of the words before the first option: the command, and a word that is none of its commands.
-struct Called {
-  const CLI::App* command = nullptr;
-  std::string words = "ripstop", unknown = {};
-};
-
-Called called(const CLI::App& app, int argc, char** argv) {
-  Called so_far{&app};
-  for (int i = 1; i < argc && argv[i][0] != '-'; ++i) {
-    const auto commands = so_far.command->get_subcommands({});
-    const auto next = std::find_if(commands.begin(), commands.end(),
-                                   [&](const CLI::App* one) { return one->get_name() == argv[i]; });
-    if (commands.empty()) break;
-    if (next == commands.end()) {
-      so_far.unknown = argv[i];
-      break;
-    }
-    so_far.command = *next;
-    so_far.words += std::string(" ") + argv[i];
-  }
-  return so_far;
-}
-
-std::string suggestion(const std::string& word, const std::vector<std::string>& candidates) {
-  const std::string near = nearest(word, candidates);
-  return near.empty() ? "" : fmt::format("; did you mean {}?", near);
-}
-
-/// One sentence, and where help is: a page of help would hide it.
-std::string usage_message(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
-  const Called at = called(app, argc, argv);
-  std::string text = error.what();
-  if (!at.unknown.empty()) {
-    std::vector<std::string> commands;
-    for (const CLI::App* one : at.command->get_subcommands({})) commands.push_back(one->get_name());
-    text = fmt::format("\"{}\" is not a command{}", at.unknown, suggestion(at.unknown, commands));
-  } else if (dynamic_cast<const CLI::ExtrasError*>(&error)) {
-    std::vector<std::string> options;
-    for (const CLI::Option* one : at.command->get_options())
-      for (const std::string& name : one->get_lnames()) options.push_back("--" + name);
-    const std::vector<std::string> rest = app.remaining(true);
-    const auto word =
-        std::find_if(rest.begin(), rest.end(), [](const auto& w) { return w.starts_with("-"); });
-    const std::string option = word == rest.end() ? "" : word->substr(0, word->find('='));
-    text = option.empty()
-               ? fmt::format("unexpected argument \"{}\" of {}", rest.empty() ? "" : rest.front(), at.words)
-               : fmt::format("{} is not an option of {}{}", option, at.words, suggestion(option, options));
-  }
-  return fmt::format("{} (see {} --help)", text, at.words);
 }
 
 int parse(CLI::App& app, int argc, char** argv, const int& status) {
@@ -87,7 +37,9 @@ int parse(CLI::App& app, int argc, char** argv, const int& status) {
     return failed(error.code(), message_of(error));
   } catch (const std::bad_alloc&) {
     return failed(ExitCode::resources, "not enough memory: use fewer nodes, cells or simultaneous runs");
-  } catch (const std::system_error& error) {  // of output or of a folder
+  } catch (const std::filesystem::filesystem_error& error) {
+    return failed(ExitCode::io, file_reason(error));
+  } catch (const std::system_error& error) {  // of output
     return failed(ExitCode::io, error.what());
   }
   return status;
@@ -114,6 +66,7 @@ int run(int argc, char** argv) {
       "128 + N ended by signal N. Each command has its own --help with an example.\n"
       "[NFM] and other sources: docs/references.bib.");
   int status = 0;
+  app.option_defaults()->always_capture_default();
   add_studio(app, status);
   add_size(app, status);
   add_import(app, status);
@@ -138,6 +91,7 @@ int run(int argc, char** argv) {
   add_calibrate(app, status);
   add_flow_parity(app, status);
   add_schema(app, status);
+  show_defaults(app);
   return written(parse(app, argc, argv, status));
 }
 
@@ -148,7 +102,8 @@ int main(int argc, char** argv) {
   try {
     return ripstop::cli::run(argc, argv);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "ripstop: internal error: %s\n", error.what());
+    std::fprintf(stderr, "ripstop: internal error: %s; please report it with the command and the case\n",
+                 error.what());
   } catch (...) {
     std::fputs("ripstop: internal error\n", stderr);
   }

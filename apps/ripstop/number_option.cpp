@@ -1,6 +1,7 @@
 #include "number_option.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -44,6 +45,10 @@ int whole(const std::string& option, const std::string& text, Range range) {
   if (value != std::floor(value) || std::abs(value) > std::numeric_limits<int>::max())
     refuse(option, text, "must be a whole number");
   return static_cast<int>(value);
+}
+
+std::string shown(double value) {
+  return fmt::format("{:g}", value);
 }
 
 template <class Take>
@@ -117,7 +122,8 @@ CLI::Option* add_number(CLI::App& command, const std::string& option, double& va
   return add(command, option, with_range(help, range), number_type,
              [&value, option, range, unit = unit_in(help)](const std::string& text) {
                value = in_range(option, text, range, unit);
-             });
+             })
+      ->default_str(shown(value));
 }
 
 CLI::Option* add_number(CLI::App& command, const std::string& option, std::optional<double>& value,
@@ -131,7 +137,8 @@ CLI::Option* add_number(CLI::App& command, const std::string& option, std::optio
 CLI::Option* add_number(CLI::App& command, const std::string& option, int& value, Range range,
                         const std::string& help) {
   return add(command, option, with_range(help, range), integer_type,
-             [&value, option, range](const std::string& text) { value = whole(option, text, range); });
+             [&value, option, range](const std::string& text) { value = whole(option, text, range); })
+      ->default_str(shown(value));
 }
 
 CLI::Option* add_number(CLI::App& command, const std::string& option, std::optional<int>& value, Range range,
@@ -151,12 +158,13 @@ CLI::Option* add_numbers(CLI::App& command, const std::string& option, std::vect
           },
           with_range(help, range))
       ->delimiter(',')
-      ->type_name("NUMBERS");
+      ->type_name("NUMBERS")
+      ->default_str(fmt::format("{}", fmt::join(values, ",")));
 }
 
 CLI::Option* add_three(CLI::App& command, const std::string& option, std::array<int, 3>& values, Range range,
                        const std::string& help) {
-  return three(command, option, values, range, help);
+  return three(command, option, values, range, help)->default_str(fmt::format("{}", fmt::join(values, ",")));
 }
 
 CLI::Option* add_three(CLI::App& command, const std::string& option,

@@ -1,5 +1,5 @@
 // Options that take numbers. Each has a range, as a key of a case: not-a-number, infinity and values outside are
-// refused before the command begins, and the help shows the range.
+// refused before the command begins, and the help shows the range and, of a variable that is not optional, the default.
 #pragma once
 
 #include <array>

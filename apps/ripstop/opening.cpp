@@ -6,17 +6,16 @@
 
 #include "case_options.h"
 #include "number_option.h"
+#include "option.h"
 #include "ripstop/case/deployment.h"
 #include "ripstop/run/steady/steady_folder.h"
 
 namespace ripstop::cli {
 void add_opening_options(CLI::App& command, OpeningOptions& options) {
   command.add_option("case", options.case_file, "Case file (TOML) with an [inflation] table")->required();
-  CLI::Option* steady = command
-                            .add_option("--steady", options.steady_run,
-                                        "Run folder of ripstop steady; its drag determines the pressure "
-                                        "(default: pressure or drag coefficient of the case)")
-                            ->check(CLI::ExistingDirectory);
+  CLI::Option* steady = add_run_folder(command, "--steady", options.steady_run,
+                                       "Run folder of ripstop steady; its drag determines the pressure")
+                            ->default_str("pressure or drag coefficient of the case");
   add_key_number(command, "--pressure", "inflation.pressure_pa", options.overrides.pressure,
                  "Pressure difference over the canopy [Pa]")
       ->excludes(steady);
@@ -27,7 +26,8 @@ void add_opening_options(CLI::App& command, OpeningOptions& options) {
   add_key_number(command, "--speed", "flow.speed_m_s", options.overrides.speed, "Nominal speed [m/s]");
   add_set_option(command, options.overrides);
   add_number(command, "--threads", options.threads, from(1).up_to(key_range("coupling.threads").high),
-             "Number of threads (default: coupling.threads)");
+             "Number of threads")
+      ->default_str("coupling.threads");
 }
 
 Settings opening_settings(const OpeningOptions& options) {

@@ -13,6 +13,7 @@
 #include "commands.h"
 #include "json_option.h"
 #include "number_option.h"
+#include "option.h"
 
 namespace ripstop::cli {
 namespace {
@@ -39,7 +40,7 @@ void print_bill(const Bill& bill) {
   for (const BillRow& row : bill.rows) {
     const char* unit = row.is_cloth ? "m2" : "m ";
     fmt::print("{:<{}} {:<{}} {:>5} {:>8.3f} {} {:>8.3f} {} {:>8.3f} {} {:>7.1f} g\n", row.part, part,
-               row.material, material, row.count, row.cut_each, unit, row.finished, unit, row.cut, unit,
+               row.material, material, row.count, row.cut_each(), unit, row.finished, unit, row.cut, unit,
                1000 * row.mass);
   }
   fmt::print("{:<{}} {:>7.1f} g\n", "total, without thread", part + material + 44, 1000 * bill.mass);
@@ -90,25 +91,19 @@ void add_pattern(CLI::App& app, int& status) {
       "pattern", "Write the cutting pattern: outlines to scale, bill of materials, packed volume");
   command->footer("Example: ripstop pattern examples/adept/case.toml --out adept-pattern");
   command->add_option("case", options->case_file, "Case file (TOML)")->required();
-  command->add_option("--out", options->out, "Folder for the files (default: pattern)");
+  command->add_option("--out", options->out, "Folder for the files");
   const auto length = [&](const char* name, double& value, const char* text) {
-    add_number(*command, name, value, allowance_range, fmt::format("{} (default: {:g})", text, value));
+    add_number(*command, name, value, allowance_range, text);
   };
   length("--seam-allowance", options->allowances.seam, "Seam allowance of the cloth [m]");
   length("--hem-allowance", options->allowances.hem, "Hem allowance of the cloth [m]");
   length("--line-loop", options->allowances.line_loop, "Extra length of line at each end for its loop [m]");
   length("--tape-overlap", options->allowances.tape_overlap, "Extra length of each tape [m]");
-  add_number(
-      *command, "--packing-density", options->packing_density, packing_density_range,
-      fmt::format(
-          "Density of the packed parachute, about 400 by hand, 600 with a press [kg/m3] (default: {:g})",
-          options->packing_density));
-  command->add_option("--units", options->units, "Unit of the DXF files: mm or in (default: mm)")
-      ->check(CLI::IsMember({"mm", "in"}));
-  command
-      ->add_option("--paper", options->paper,
-                   "Also as PDF at true size on sheets of this paper, with registration marks: a4 or letter")
-      ->check(CLI::IsMember({"a4", "letter"}));
+  add_number(*command, "--packing-density", options->packing_density, packing_density_range,
+             "Density of the packed parachute, about 400 by hand, 600 with a press [kg/m3]");
+  add_choice(*command, "--units", options->units, {"mm", "in"}, "Unit of the DXF files");
+  add_choice(*command, "--paper", options->paper, {"a4", "letter"},
+             "Also as PDF at true size on sheets of this paper, with registration marks");
   add_json_option(*command, options->json);
   command->callback([options, &status] { status = run(*options); });
 }

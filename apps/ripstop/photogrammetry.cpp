@@ -12,6 +12,7 @@
 #include "commands.h"
 #include "json_option.h"
 #include "number_option.h"
+#include "option.h"
 #include "ripstop/core/error.h"
 
 namespace ripstop::cli {
@@ -58,13 +59,10 @@ int photogrammetry(const PhotogrammetryArguments& options) {
   if (!options.run.empty()) canopy = computed_canopy(options.run);
   const Photogrammetry result = run_photogrammetry(image, canopy);
   write_photogrammetry(options.out, result);
-  if (options.json) {
-    fmt::print("{}", to_json(result));
-    return 0;
-  }
-  print_result(result);
-  fmt::print("{} (profile.svg, profile.png)\n", (options.out / "result.json").string());
-  return 0;
+  return show(result, options.json, [&] {
+    print_result(result);
+    fmt::print("{} (profile.svg, profile.png)\n", (options.out / "result.json").string());
+  });
 }
 
 }  // namespace
@@ -79,12 +77,11 @@ void add_photogrammetry(CLI::App& app, int& status) {
       "known,\n"
       "known_m. The distance of the camera is distance_m, or is computed from the known diameters.\n"
       "Example: ripstop photogrammetry validation/ojf/stratos-iv-images.toml --run runs/stratos-iv");
-  command->add_option("image", options->image, "Sizes measured on an image (TOML)")->check(CLI::ExistingFile);
-  command->add_option("--run", options->run, "Run folder of ripstop steady to compare with")
-      ->check(CLI::ExistingDirectory);
-  add_number(*command, "--distance", options->distance, above(0).up_to(1e4),
-             "Distance of the camera [m] (default: as in the file)");
-  command->add_option("--out", options->out, "Folder (default: runs/photogrammetry)");
+  add_existing_file(*command, "image", options->image, "Sizes measured on an image (TOML)");
+  add_run_folder(*command, "--run", options->run, "Run folder of ripstop steady to compare with");
+  add_number(*command, "--distance", options->distance, above(0).up_to(1e4), "Distance of the camera [m]")
+      ->default_str("as in the file");
+  command->add_option("--out", options->out, "Folder");
   add_json_option(*command, options->json);
   command->callback([options, &status] { status = photogrammetry(*options); });
 }

@@ -12,6 +12,7 @@
 #include "case_options.h"
 #include "commands.h"
 #include "number_option.h"
+#include "option.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/output/csv.h"
@@ -20,6 +21,7 @@
 #include "ripstop/run/sweep/sweep_files.h"
 #include "sweep_progress.h"
 #include "table_options.h"
+#include "warnings.h"
 
 namespace ripstop::cli {
 namespace {
@@ -32,10 +34,10 @@ constexpr double printed_slope = -1.7794, printed_intercept = 0.9195;
 
 struct PorosityArguments : SweepOptions {
   fs::path measured;
-  std::string columns, decimal;
-  std::vector<double> gammas, permeabilities;
-  double thickness = 1.2e-4;
-  int shifts = 3;
+  std::string columns, decimal = "auto";
+  std::vector<double> gammas = {0.18, 0.2, 0.22, 0.24}, permeabilities;
+  double thickness = PorositySweep().thickness;
+  int shifts = PorositySweep().shifts;
 };
 
 PorosityKnob knob_of(const PorosityArguments& options) {
@@ -121,7 +123,7 @@ ordered_json line_json(const LineFit& line) {
 
 void write_result(const fs::path& folder, const Settings& resolved, const std::vector<MeasuredDrag>& measured,
                   const PorosityCalibration& found, PorosityKnob knob, const PressureDrop& law,
-                  const PorosityArguments& options, double area) {
+                  const PorosityArguments& options, double area, const std::vector<std::string>& warnings) {
   ordered_json j;
   j["title"] = resolved.title();
   j["knob"] = knob_name(knob);
@@ -154,6 +156,7 @@ void write_result(const fs::path& folder, const Settings& resolved, const std::v
                            {"computed_drag_area_m2", found.computed[i]},
                            {"drag_area_fit", line_json(found.lines[i])}});
   }
+  j["warnings"] = warnings;
   write_file(folder / "result.json", j.dump(2) + "\n");
 }
 
@@ -185,7 +188,6 @@ int calibrate(PorosityArguments& options) {
   const Settings resolved = read_settings(options.case_file, options.overrides);
   PorositySweep sweep{knob_of(options), options.gammas, options.thickness, options.shifts};
   if (sweep.knob == PorosityKnob::permeability) sweep.values = options.permeabilities;
-  if (sweep.values.empty()) sweep.values = {0.18, 0.20, 0.22, 0.24};
   std::sort(sweep.values.begin(), sweep.values.end());
   require_slope(sweep);
   const PorosityKnob knob = sweep.knob;
@@ -198,6 +200,8 @@ int calibrate(PorosityArguments& options) {
              folder.string());
   const std::vector<SweepRow> rows = run_and_tell(axes, points, options.settings);
   write_csv(folder / "sweep.csv", sweep_table(axes, points, rows));
+  const std::vector<std::string> warnings = sweep_warnings(points, rows);
+  print_warnings(warnings);
   require_all(points, rows);
 
   const std::vector<PorosityTrial> trials = porosity_trials(resolved, sweep, rows);
@@ -205,7 +209,7 @@ int calibrate(PorosityArguments& options) {
   const PorosityCalibration found = calibrate_porosity(measured, trials, area);
   const PressureDrop law = cloth_of(knob, found.knob, options.thickness);
   write_plots(folder, resolved, measured, trials, found, knob, area);
-  write_result(folder, resolved, measured, found, knob, law, options, area);
+  write_result(folder, resolved, measured, found, knob, law, options, area, warnings);
   seal_sweep(folder);
   if (options.json) {
     fmt::print("{}", read_file(folder / "result.json"));
@@ -234,24 +238,20 @@ void add_calibrate_porosity(CLI::App& parent, int& status) {
       "Example: ripstop calibrate porosity examples/stratos-iv/case.toml --gammas 0.18,0.20,0.22,0.24 "
       "--shifts 3");
   add_sweep_options(*command, *options);
-  command
-      ->add_option("--measured", options->measured,
-                   "Measured points (CSV); default: the rows of [[measured]] with a drag, at the speed_basis "
-                   "of the case")
-      ->check(CLI::ExistingFile);
+  add_existing_file(*command, "--measured", options->measured, "Measured points (CSV)")
+      ->default_str("the rows of [[measured]] with a drag, at the speed_basis of the case");
   add_table_options(*command, options->columns, options->decimal, "speed=v [m/s],drag=Widerstand [N]");
   CLI::Option* gammas = add_numbers(*command, "--gammas", options->gammas, from(0.01).up_to(0.99),
-                                    "Values of Ergun's porosity (default: 0.18,0.20,0.22,0.24)");
+                                    "Values of Ergun's porosity");
   add_numbers(*command, "--permeabilities", options->permeabilities, from(1e-3).up_to(9999),
               "Instead: values of the permeability [CFM/ft2 at half an inch of water], with b = 0")
       ->excludes(gammas);
-  add_number(
-      *command, "--thickness", options->thickness, above(0).up_to(0.1),
-      "Thickness of the cloth in Ergun's law [m] (default: 1.2e-4, to which a and b of [NFM] correspond)");
+  add_number(*command, "--thickness", options->thickness, above(0).up_to(0.1),
+             "Thickness of the cloth in Ergun's law, to whose default a and b of [NFM] correspond [m]");
   add_number(*command, "--shifts", options->shifts, from(1).up_to(100),
-             "Number of grid alignments along the flow that are averaged (default: 3)");
-  command->add_option("--out", options->settings.folder,
-                      "Folder (default: runs/<name of the case>-porosity)");
+             "Number of grid alignments along the flow that are averaged");
+  command->add_option("--out", options->settings.folder, "Folder")
+      ->default_str("runs/<name of the case>-porosity");
   command->callback([options, &status] { status = calibrate(*options); });
 }
 

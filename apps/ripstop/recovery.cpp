@@ -11,6 +11,7 @@
 #include "json_option.h"
 #include "margins.h"
 #include "number_option.h"
+#include "option.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/words.h"
 #include "ripstop/flight/atmosphere.h"
@@ -44,14 +45,25 @@ void print_stage(const RecoveryStage& s) {
                                 s.drag_coefficient * s.reference_area, s.drag_source));
   print_row("range of C_D in descent", fmt::format("{:.3f} to {:.3f}: {}", s.descent_drag.low,
                                                    s.descent_drag.high, s.descent_drag.from));
-  print_row("opening", fmt::format("{:.2f} s after apogee, {} m above the ground, at {}", s.time,
-                                   rounded(s.height), range_text(s.speed, "m/s")));
+  print_row(
+      "opening",
+      fmt::format("{:.2f} s after apogee, {} m above the ground, at {}, path {} deg below the "
+                  "horizon, {:.4g} kg/m3 (standard atmosphere)",
+                  s.time, rounded(s.height), range_text(s.speed, "m/s"), rounded(s.path_angle), s.density));
   print_row("opening load", fmt::format("{} to {} N by the applicable methods; filling time {:.3g} s",
                                         rounded(s.lowest_load), rounded(s.highest_load), s.filling_time));
   print_row(
       "design load",
       fmt::format("{}: {}", range_text({s.design_load, s.least_design_load, s.largest_design_load}, "N"),
                   s.design_load_from));
+  if (s.snatch_load)
+    print_row("snatch load", fmt::format("{} N by [deployment] of its case, at the highest airspeed",
+                                         rounded(*s.snatch_load)));
+  print_row("margins and hardware",
+            fmt::format("under {} N, the upper end of the design load{}", rounded(s.largest_design_load),
+                        s.hardware.rated > s.largest_design_load
+                            ? "; of lines, riser and hardware under the snatch load"
+                            : ""));
   print_margins(s.margins);
   print_row("required hardware", hardware_text(s.hardware));
   print_row("fastest safe deployment", safe_speed_text(s.safe));
@@ -110,27 +122,27 @@ int recovery(RecoveryArguments& options) {
 void add_flight(CLI::App& command, CLI::Option* drogue, RecoveryArguments& options) {
   RecoveryRequest& r = options.request;
   add_number(command, "--mass", options.mass, key_range("payload.mass_kg"),
-             "Mass that descends, without the parachutes [kg] (default: payload.mass_kg of the main's case)");
+             "Mass that descends, without the parachutes [kg]")
+      ->default_str("payload.mass_kg of the main's case");
   add_number(command, "--apogee", options.apogee, above(0).up_to(highest_height),
              "Apogee above the ground [m]");
   add_number(command, "--main-height", r.main_height, above(0).up_to(highest_height),
-             "Height above the ground at which the main opens, with a drogue [m] (default: 300)")
+             "Height above the ground at which the main opens, with a drogue [m]")
       ->needs(drogue);
   add_number(command, "--speed", r.speed, above(0).up_to(1000),
-             "Horizontal airspeed at apogee [m/s] (default: 20, assumed)");
-  add_number(command, "--delay", r.delay, from(0).up_to(1000),
-             "Time from apogee to the first opening [s] (default: 0)");
+             "Horizontal airspeed at apogee [m/s]; the default is assumed");
+  add_number(command, "--delay", r.delay, from(0).up_to(1000), "Time from apogee to the first opening [s]");
   add_number(command, "--ground", r.ground, from(lowest_height).up_to(highest_height),
-             "Height of the ground above sea level [m] (default: 0)");
-  add_number(command, "--body-area", r.body_drag_area, from(0).up_to(1e4),
-             "Drag area of the body [m2] (default: payload.drag_area_m2 of the main's case)");
+             "Height of the ground above sea level [m]");
+  add_number(command, "--body-area", r.body_drag_area, from(0).up_to(1e4), "Drag area of the body [m2]")
+      ->default_str("payload.drag_area_m2 of the main's case");
   add_key_option(command, "--wind", "flight.wind.speed_m_s",
-                 "Speed of the wind at its reference height [m/s] (default: that of the main's case); other "
-                 "keys of the profile with --set flight.wind.KEY",
+                 "Speed of the wind at its reference height [m/s]; other keys of the profile with --set "
+                 "flight.wind.KEY",
                  options.overrides);
   command
       .add_flag("--drogue-released", r.drogue_released,
-                "The drogue is released when the main opens (default: it remains attached)")
+                "The drogue is released when the main opens; without this option it remains attached")
       ->needs(drogue);
 }
 
@@ -151,23 +163,19 @@ void add_recovery(CLI::App& app, int& status) {
   CLI::Option* drogue =
       command->add_option("--drogue", options->drogue_case, "Case file of the drogue, which opens at apogee");
   add_flight(*command, drogue, *options);
-  command
-      ->add_option("--steady", r.main_steady,
-                   "Run folder of ripstop steady or fly with the drag area of the main")
-      ->check(CLI::ExistingDirectory);
-  command
-      ->add_option("--drogue-steady", r.drogue_steady,
-                   "Run folder of ripstop steady or fly with the drag area of the drogue")
-      ->check(CLI::ExistingDirectory)
+  add_run_folder(*command, "--steady", r.main_steady,
+                 "Run folder of ripstop steady or fly with the drag area of the main");
+  add_run_folder(*command, "--drogue-steady", r.drogue_steady,
+                 "Run folder of ripstop steady or fly with the drag area of the drogue")
       ->needs(drogue);
   add_numbers(*command, "--section", r.sections, above(0).up_to(1e6),
               "Masses of sections of the rocket, for the kinetic energy of each at landing [kg]");
   add_number(*command, "--bay-diameter", r.bay_diameter, above(0).up_to(10),
              "Inner diameter of the parachute bay, for the length that the packed parachute needs [m]");
   add_number(*command, "--packing-density", r.packing_density, packing_density_range,
-             "Packing density [kg/m3] (default: packed by hand)");
+             "Packing density, about 400 by hand, 600 with a press [kg/m3]");
   add_set_option(*command, options->overrides);
-  command->add_option("--out", options->out, "Folder (default: runs/recovery)");
+  command->add_option("--out", options->out, "Folder");
   add_units_option(*command);
   add_json_option(*command, options->json);
   command->callback([options, &status] { status = recovery(*options); });

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "commands.h"
+#include "ripstop/run/used_run.h"
+#include "warnings.h"
 
 namespace ripstop::cli {
 namespace {
@@ -26,15 +28,15 @@ void add_report(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand(
       "report", "Write finished runs as one HTML file: 3D shape, flow, plots, tables, comparison of runs");
   command->footer(
-      "The commands steady, inflate and sweep write this file into their run folders.\n"
+      "These commands write this file into their run folders.\n"
       "Example: ripstop report runs/stratos-iv runs/walrus --out both.html");
-  command->add_option("runs", options->runs, "Folders of finished runs of steady, inflate or sweep")
+  command->add_option("runs", options->runs, "Folders of finished runs of steady, inflate, fly or sweep")
       ->required();
-  command->add_option(
-      "--out", options->out,
-      "File (default: report.html in the run folder; for several runs, in the current folder)");
+  command->add_option("--out", options->out, "File")
+      ->default_str("report.html in the run folder; for several runs, in the current folder");
   command->callback([options, &status] {
     fmt::print("{}\n", write_report(options->runs, options->out).string());
+    print_warnings(warnings_of_shown(options->runs));
     status = 0;
   });
 }

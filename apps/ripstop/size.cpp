@@ -12,7 +12,9 @@
 #include "json_option.h"
 #include "margins.h"
 #include "number_option.h"
+#include "option.h"
 #include "progress.h"
+#include "ripstop/case/payload.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/flight/atmosphere.h"
@@ -40,7 +42,8 @@ struct SizeArguments {
 void print_result(const SizeResult& r, const fs::path& file, const fs::path& page) {
   const auto row = print_row;
   print_text("{}\n", r.given.title);
-  row("air", fmt::format("{:.4g} kg/m3", r.density));
+  row("air", fmt::format("{:.4g} kg/m3, {:.4g} m above sea level, for descent and opening ({})", r.density,
+                         r.height, r.air_source));
   row("drag coefficient",
       fmt::format("{:.3f} on S0, {}{}", r.drag_coefficient, r.drag_source,
                   r.handbook_drag_coefficient
@@ -67,6 +70,11 @@ void print_result(const SizeResult& r, const fs::path& file, const fs::path& pag
   row("packed volume", fmt::format("{:.3g} litres", 1000 * r.packed_volume));
   row("DESIGN LOAD", fmt::format("{:.0f} N at {:.3g} m/s: {}; largest line load {:.2f} times the mean",
                                  r.design_load, r.deployment_speed, r.design_load_from, r.line_load_factor));
+  if (r.smallest_margin)
+    row("largest load",
+        fmt::format("{:.0f} N with the uncertainty of {:.0f} % ({}): margin of safety {:+.2f}, {}",
+                    r.largest_load, 100 * r.load_uncertainty, r.load_uncertainty_from, *r.smallest_margin,
+                    r.smallest_margin_member));
   row("applicable methods",
       fmt::format("opening load {:.0f} to {:.0f} N (ripstop load)", r.opening_load_low, r.opening_load));
   if (!r.opening.front().caution.empty()) row("", r.opening.front().caution);
@@ -185,49 +193,39 @@ void add_size(CLI::App& app, int& status) {
   add_number(*command, "--descent-rate", r.descent_rate, key_range("flow.speed_m_s"),
              "Required descent rate [m/s]")
       ->required();
-  command->add_option("--family", r.family, "Canopy family: name of its example (default: flat-circular)");
+  command->add_option("--family", r.family, "Canopy family: name of its example");
   auto* height = add_number(*command, "--height", r.height, from(lowest_height).up_to(highest_height),
-                            "Height above sea level at which this rate is required [m] (default: 0)");
+                            "Height above sea level at which this rate is required [m]");
   add_number(*command, "--density", r.density, key_range("flow.density_kg_m3"),
              "Density of the air, instead of the height [kg/m3]")
       ->excludes(height);
   add_number(*command, "--drag-coefficient", r.drag_coefficient, key_range("inflation.drag_coefficient"),
-             "Drag coefficient on S0 (default: value computed for the family)");
-  command
-      ->add_option_function<std::string>(
-          "--drag-coefficient-on",
-          [&r](const std::string& area) {
-            r.drag_coefficient_on = area == "projected" ? DragReference::projected : DragReference::nominal;
-          },
-          "Area of --drag-coefficient: nominal (S0), or projected (the circle of the open canopy, as makers "
-          "state it) (default: nominal)")
-      ->check(CLI::IsMember({"nominal", "projected"}));
-  add_number(
-      *command, "--deployment-speed", r.deployment_speed, above(0).up_to(1000),
-      "Speed at deployment, for the opening load [m/s] (default: 20, at least 3 times the descent rate)");
-  command->add_option("--line-material", r.line_material,
-                      "Line material of the library (default: the lightest with sufficient strength)");
+             "Drag coefficient on S0")
+      ->default_str("value computed for the family");
+  add_choice<DragReference>(
+      *command, "--drag-coefficient-on", r.drag_coefficient_on,
+      {{"nominal", DragReference::nominal}, {"projected", DragReference::projected}},
+      "Area of --drag-coefficient: nominal (S0), or projected (the circle of the open canopy, as makers "
+      "state it)");
+  add_number(*command, "--deployment-speed", r.deployment_speed, above(0).up_to(1000),
+             "Speed at deployment, for the opening load [m/s]")
+      ->default_str(fmt::format("{:g}, at least {:g} times the descent rate", least_deployment_speed,
+                                deployment_over_descent));
+  command->add_option("--line-material", r.line_material, "Line material of the library")
+      ->default_str("the lightest with sufficient strength");
   add_number(*command, "--packing-density", r.packing_density, from(50).up_to(1500),
-             "Density of the packed parachute [kg/m3] (default: 400, packed by hand)");
+             "Density of the packed parachute, about 400 by hand, 600 with a press [kg/m3]");
   command->add_flag("--verify", options->verify,
                     "Run the case and adjust the diameter until the descent rate is met within 1 %");
   command->add_flag("--fly", options->fly,
                     "With --verify: fly the parachute freely instead of steady runs on the axis");
   add_number(*command, "--duration", options->duration, key_range("flight.duration_s"),
-             "Duration of each flight of --fly [s] (default: 30)");
-  command
-      ->add_option_function<std::string>(
-          "--coefficient",
-          [options](const std::string& word) {
-            options->request.basis = word == "axial"     ? DragBasis::axial
-                                     : word == "descent" ? DragBasis::descent
-                                                         : DragBasis::safe;
-          },
-          "Coefficient of the family: axial (steady flow), descent (flown), or safe (the smaller one, "
-          "default)")
-      ->check(CLI::IsMember({"safe", "axial", "descent"}))
-      ->option_text("safe|axial|descent");
-  command->add_option("--out", options->out, "Case file (default: my-canopy.toml)");
+             "Duration of each flight of --fly [s]");
+  add_choice<DragBasis>(
+      *command, "--coefficient", r.basis,
+      {{"safe", DragBasis::safe}, {"axial", DragBasis::axial}, {"descent", DragBasis::descent}},
+      "Coefficient of the family: axial (steady flow), descent (flown), or safe (the smaller one)");
+  command->add_option("--out", options->out, "Case file");
   command->add_flag("--force", options->force, "Replace an existing case file");
   add_units_option(*command);
   add_json_option(*command, options->json);

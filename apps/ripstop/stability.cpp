@@ -97,13 +97,19 @@ void print_result(const StabilityResult& r, const fs::path& folder) {
   fmt::print(
       "  {:.4g} m/s, {:.4g} kg/m3; coefficients on S0 = {:.4f} m2, D0 = {:.4f} m, C_m about the confluence\n",
       r.speed, r.density, r.reference_area, r.reference_length);
+  fmt::print(
+      "  C_T: force along the axis of the canopy. C_N: force normal to it; positive: it reduces the angle of "
+      "attack.\n"
+      "  C_m: moment; positive: it increases the angle of attack. +- is one standard error.\n");
   fmt::print("{}\n", heading());
   for (const StabilityRow& row : r.rows) fmt::print("{}\n", row_text(row));
   if (r.trims.empty()) fmt::print("  no trim angle within these angles\n");
   for (const Trim& trim : r.trims)
-    fmt::print("  trim at {:.1f}{} deg: {}{}\n", trim.angle,
-               trim.standard_error ? fmt::format(" +- {:.1f}", *trim.standard_error) : "",
-               trim.stable ? "stable" : "unstable", trim.certain ? "" : " (not certain)");
+    fmt::print(
+        "  trim at {:.1f}{} deg: {}{}\n", trim.angle,
+        trim.standard_error ? fmt::format(" +- {:.1f}", *trim.standard_error) : "",
+        trim.stable ? "stable, C_m falls with the angle" : "unstable, C_m rises with the angle",
+        trim.certain ? "" : " (not certain: C_m of a neighbouring angle is within two standard errors of 0)");
   fmt::print("  files: {} (stability.csv, six_dof.csv, stability.svg, report.html, result.json)\n",
              folder.string());
 }
@@ -131,14 +137,13 @@ int finish(const StabilityArguments& options, const StabilityResult& result,
     fmt::print("{}", to_json(result));
   else
     print_result(result, options.settings.run.folder);
-  std::fflush(stdout);
-  print_warnings(result.warnings);
+  const int status = print_result_warnings(result.warnings, result.usable);
   if (!missing.empty())
     throw Error(ExitCode::io,
                 fmt::format("{}: not there yet; submit again, or repeat ripstop stability without "
                             "--gather",
                             fmt::join(missing, ", ")));
-  return 0;
+  return status;
 }
 
 int stability(StabilityArguments& options) {
@@ -189,23 +194,26 @@ void add_stability(CLI::App& app, int& status) {
       "         ripstop stability examples/cross/case.toml --angles 0:30:10 --steady runs/cross\n"
       "         ripstop stability examples/cross/case.toml --flow openfoam --ranks 16 --batch slurm");
   command->add_option("case", options->case_file, "Case file (TOML)")->required();
-  command->add_option("--angles", options->angles,
-                      "Angles of attack FROM:TO:STEP, or one angle [deg] (default: 0:40:5)");
+  command->add_option("--angles", options->angles, "Angles of attack FROM:TO:STEP, or one angle [deg]");
   add_number(*command, "--cells-across", options->settings.across, from(8).up_to(100),
-             "Cells of the flow over the projected diameter (default: 16)");
-  command->add_option(
-      "--steady", options->settings.steady,
-      "Folder of a finished steady run of the same parachute, speed and density, which provides the "
-      "shape (default: a run computed in OUT/axis)");
-  command->add_flag("--equilibrium", options->settings.equilibrium,
-                    "The canopy deforms under the mean load of each angle, restrained at vent and confluence "
-                    "(default: rigid, with the shape of the steady run on the axis)");
+             "Cells of the flow over the projected diameter");
+  command
+      ->add_option(
+          "--steady", options->settings.steady,
+          "Folder of a finished steady run of the same parachute, speed and density, which provides the "
+          "shape")
+      ->default_str("a run computed in OUT/axis");
+  command->add_flag(
+      "--equilibrium", options->settings.equilibrium,
+      "The canopy deforms under the mean load of each angle, restrained at vent and confluence; "
+      "without this option it is rigid, with the shape of the steady run on the axis");
   add_case_options(*command, options->overrides);
   add_flow_options(*command, options->overrides);
   command->add_flag("--cold", options->cold, "Start the flow of every angle from the uniform stream");
-  command->add_option("--out", options->settings.run.folder,
-                      "Folder (default: runs/<name of the case>-stability)");
-  command->add_flag("--fresh", options->settings.run.fresh, "Replace finished angles; default: keep them");
+  command->add_option("--out", options->settings.run.folder, "Folder")
+      ->default_str("runs/<name of the case>-stability");
+  command->add_flag("--fresh", options->settings.run.fresh,
+                    "Replace finished angles; without this option they are kept");
   CLI::Option* dry_run =
       command->add_flag("--dry-run", options->dry_run, "Print the folders of all parts, and stop");
   add_json_option(*command, options->json);

@@ -14,6 +14,7 @@
 #include "commands.h"
 #include "json_option.h"
 #include "margins.h"
+#include "option.h"
 #include "progress.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/cost.h"
@@ -211,7 +212,7 @@ void add_steady(CLI::App& app, int& status) {
   auto options = std::make_shared<SteadyArguments>();
   CLI::App* command = app.add_subcommand("steady", "Compute inflated shape, drag and loads in a steady flow");
   command->footer(
-      "Example: ripstop steady examples/stratos-iv/case.toml --speed 30 --grid 50,50,75\n"
+      "Example: ripstop steady examples/stratos-iv/case.toml --speed 30\n"
       "         ripstop steady examples/stratos-iv/case.toml --flow openfoam --ranks 16 --batch slurm");
   command->add_option("case", options->case_file, "Case file (TOML)")->required();
   add_case_options(*command, options->overrides);
@@ -222,11 +223,11 @@ void add_steady(CLI::App& app, int& status) {
         options->overrides.set.push_back({"flow.unsteady", "true", "--unsteady"});
       },
       "Continue in time and average an unsteady wake, with the standard error of the mean");
-  command->add_option("--hostfile", options->hostfile, "Hosts for the MPI ranks, one per line: name slots=4")
-      ->check(CLI::ExistingFile);
-  command->add_option("--out", options->out, "Run folder (default: runs/<name of the case>)");
+  add_existing_file(*command, "--hostfile", options->hostfile,
+                    "Hosts for the MPI ranks, one per line: name slots=4");
+  command->add_option("--out", options->out, "Run folder")->default_str("runs/<name of the case>");
   command->add_flag("--fresh", options->fresh,
-                    "Replace the files of Ripstop in the run folder; default: resume the run");
+                    "Replace the files of Ripstop in the run folder; without this option the run resumes");
   command->add_flag("--dry-run", options->dry_run, "Print run folder, size and estimated time, and stop");
   add_units_option(*command);
   add_json_option(*command, options->json);

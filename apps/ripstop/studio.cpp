@@ -74,8 +74,8 @@ void add_studio(CLI::App& app, int& status) {
       "files of\n"
       "the folder; runs are in its runs/ and have the form of all run folders.\n"
       "Example: ripstop studio my-parachutes --no-browser");
-  command->add_option("folder", options->folder, "Folder with the case files (default: the current one)");
-  add_number(*command, "--port", options->port, from(0).up_to(65535), "Port (default: a free one)");
+  command->add_option("folder", options->folder, "Folder with the case files");
+  add_number(*command, "--port", options->port, from(0).up_to(65535), "Port")->default_str("a free one");
   command->add_flag("--no-browser", options->no_browser, "Only print the address");
   command->callback([options, &status] { status = studio(*options); });
 }

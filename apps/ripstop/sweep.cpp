@@ -105,7 +105,8 @@ int run_only(const SweepArguments& options, const std::vector<SweepPoint>& point
     fmt::print("{}: {:.4g} m/s, drag {:.2f} N, drag area {:.4f} m2{}, {} iterations{}\n", point->folder,
                result.speed, result.drag, result.drag_area, weakest_text(result.margins), result.iterations,
                result.converged ? "" : ", NOT converged");
-  return result.converged ? 0 : static_cast<int>(ExitCode::not_converged);
+  const int quality = print_result_warnings(result.warnings, result.usable);
+  return result.converged ? quality : static_cast<int>(ExitCode::not_converged);
 }
 
 int sweep(SweepArguments& options) {
@@ -137,7 +138,7 @@ int sweep(SweepArguments& options) {
         (folder / "sweep.csv").string());
     if (std::filesystem::exists(folder / report_name)) fmt::print("{}\n", (folder / report_name).string());
   }
-  std::fflush(stdout);
+  print_warnings(sweep_warnings(points, rows));
   require_all(points, rows);
   return 0;
 }
@@ -155,7 +156,7 @@ void add_sweep(CLI::App& app, int& status) {
       "Example: ripstop sweep examples/stratos-iv/case.toml --speeds 10,15,20,25,30\n"
       "         ripstop sweep examples/stratos-iv/case.toml --vary parachute.vent_diameter_m=0.07,0.09,0.11 "
       "\\\n"
-      "           --vary flow.cells=[50,50,75],[80,80,120]\n"
+      "           --vary parachute.gap_height_m=0.05,0.07\n"
       "         ripstop sweep examples/stratos-iv/case.toml --speeds 10,15,20,25,30 --batch slurm");
   add_sweep_options(*command, *options);
   command->add_option("--speeds", options->speeds, "Nominal speeds [m/s], for example 10,15,20")
@@ -168,7 +169,8 @@ void add_sweep(CLI::App& app, int& status) {
       ->take_all();
   command->add_flag("--linear", options->overrides.linear,
                     "Linear material model: only the stiffness coefficient K_1 of every material");
-  command->add_option("--out", options->settings.folder, "Folder (default: runs/<name of the case>-sweep)");
+  command->add_option("--out", options->settings.folder, "Folder")
+      ->default_str("runs/<name of the case>-sweep");
   CLI::Option* dry_run =
       command->add_flag("--dry-run", options->dry_run, "Print the runs that would be computed, and stop");
   CLI::Option* only =

@@ -40,14 +40,15 @@ void add_sweep_options(CLI::App& command, SweepOptions& options) {
   command.add_option("case", options.case_file, "Case file (TOML)")->required();
   add_flow_options(command, options.overrides);
   add_set_option(command, options.overrides);
-  add_number(command, "--jobs", options.settings.jobs, from(1).up_to(1024),
-             "Number of simultaneous runs (default: as many as cores and free memory allow)");
+  add_number(command, "--jobs", options.settings.jobs, from(1).up_to(1024), "Number of simultaneous runs")
+      ->default_str("as many as cores and free memory allow");
   command.add_flag("--cold", options.cold,
                    "Start every run from the undeformed canopy, not from a neighbouring run");
   command.add_flag("--fields", options.settings.fields,
                    "Keep shapes and flow of every iteration for ParaView");
   add_json_option(command, options.json);
-  command.add_flag("--fresh", options.settings.fresh, "Replace finished runs; default: keep them");
+  command.add_flag("--fresh", options.settings.fresh,
+                   "Replace finished runs; without this option they are kept");
 }
 
 void finish(SweepOptions& options, const std::string& what) {
@@ -107,6 +108,9 @@ void require_all(const std::vector<SweepPoint>& points, const std::vector<SweepR
           fmt::format("{}: the coupling did not converge; raise coupling.max_iterations or loosen its "
                       "tolerances",
                       points[i].folder));
+    if (!rows[i].result.usable.value_or(true))
+      throw Error(ExitCode::not_converged,
+                  fmt::format("{}: the result must not be used, see its warnings", points[i].folder));
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "option.h"
+
 namespace ripstop::cli {
 
 void add_table_options(CLI::App& command, std::string& columns, std::string& decimal,
@@ -9,9 +11,8 @@ void add_table_options(CLI::App& command, std::string& columns, std::string& dec
   command.add_option(
       "--columns", columns,
       "Columns of the table that are not recognised by their headings, for example \"" + example + "\"");
-  command.add_option("--decimal", decimal, "Decimal mark, where numbers are ambiguous (default: auto)")
-      ->check(CLI::IsMember({"auto", "point", "comma"}))
-      ->option_text("auto|point|comma");
+  add_choice(command, "--decimal", decimal, {"auto", "point", "comma"},
+             "Decimal mark, where numbers are ambiguous");
 }
 
 }  // namespace ripstop::cli

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstddef>
 
+#include "option.h"
 #include "ripstop/core/us_units.h"
 #include "ripstop/core/wrap.h"
 
@@ -16,11 +17,8 @@ std::string chosen_units = "si";
 }  // namespace
 
 void add_units_option(CLI::App& command) {
-  command
-      .add_option(
-          "--units", chosen_units,
-          "Units of printed results: si (default), or us for both SI and US customary units; files are in SI")
-      ->check(CLI::IsMember({"si", "us"}));
+  add_choice(command, "--units", chosen_units, {"si", "us"},
+             "Units of printed results: SI, or both SI and US customary units; files are in SI");
 }
 
 bool both_units() {

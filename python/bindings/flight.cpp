@@ -45,7 +45,9 @@ void add_flight(py::module_& module) {
       py::arg("run"), py::kw_only(), py::arg("deployment_speed_m_s") = py::none(),
       py::arg("flight") = py::none(),
       "Exports the parachute of a steady run to flight simulators: ripstop export. run: a Steady or its "
-      "run\nfolder. deployment_speed_m_s: speed for the filling time [m/s]; None: speed of the run.\nflight: "
+      "run\nfolder. deployment_speed_m_s: speed for the filling time [m/s]; None: speed of the run, or with "
+      "a "
+      "payload 20 m/s or three times\nthe rate of descent.\nflight: "
       "run folder of a flight "
       "of this parachute, whose coefficient in descent replaces the axial one.");
 }

@@ -47,8 +47,8 @@ void add_load(py::module_& module) {
       "Trajectory with the drag area of a computed opening; empty without one.");
   module.def(
       "load",
-      [](PyCase given, double mass, double speed, std::optional<double> height, double ground, double angle,
-         const Reefing& reefing, const std::optional<SteadySource>& steady,
+      [](PyCase given, double mass, double speed, std::optional<double> height, std::optional<double> ground,
+         double angle, const Reefing& reefing, const std::optional<SteadySource>& steady,
          const std::optional<Path>& opening, std::optional<double> drag,
          std::optional<double> opening_coefficient, std::optional<double> filling_constant,
          std::optional<double> filling_exponent, std::optional<double> snatch_speed,
@@ -64,7 +64,7 @@ void add_load(py::module_& module) {
         return load(given, r, steady, reefing, out);
       },
       py::arg("case"), py::arg("payload_mass_kg"), py::arg("speed_m_s"), py::kw_only(),
-      py::arg("height_m") = py::none(), py::arg("ground_m") = 0.0, py::arg("path_angle_deg") = 90.0,
+      py::arg("height_m") = py::none(), py::arg("ground_m") = py::none(), py::arg("path_angle_deg") = 90.0,
       py::arg("reefing") = Reefing(), py::arg("steady") = py::none(), py::arg("opening") = py::none(),
       py::arg("drag_coefficient") = py::none(), py::arg("opening_coefficient") = py::none(),
       py::arg("filling_constant") = py::none(), py::arg("filling_exponent") = py::none(),
@@ -72,8 +72,10 @@ void add_load(py::module_& module) {
       py::arg("payload_drag_area_m2") = py::none(), py::arg("measured_load_n") = py::none(),
       py::arg("out") = py::none(),
       "Estimates opening and snatch loads for a payload [kg] by several methods: ripstop load.\n\nspeed_m_s: "
-      "airspeed at line stretch.\nheight_m: height above sea level at line stretch (None: height of the case "
-      "if above the ground, else\n  1000 m above it).\npath_angle_deg: angle of the flight path below the "
+      "airspeed at line stretch.\nheight_m: height above sea level at line stretch, with the standard "
+      "atmosphere there (None: air of the case).\nground_m: height of the ground, where the flight ends "
+      "(None: 0 "
+      "with height_m, else none).\npath_angle_deg: angle of the flight path below the "
       "horizon.\nmeasured_load_n: measured opening load at this state, which becomes the design "
       "load.\nreefing: stages (share of the drag area, seconds), in order.\nsteady: a Steady or its run "
       "folder, for the drag coefficient.\nopening: run folder of an opening.\nout: folder for the files of "

@@ -20,11 +20,13 @@ void add_fastest(py::module_& module) {
       [](const PyCase& given, double mass, double margin, std::optional<double> height, double angle,
          const std::vector<std::pair<double, double>>& reefing, const std::optional<Path>& steady,
          const std::optional<Path>& opening, std::optional<double> drag,
-         std::optional<double> filling_constant, const std::optional<Path>& out) {
+         std::optional<double> filling_constant, std::optional<double> snatch_speed,
+         std::optional<double> packed, const std::optional<Path>& out) {
         const py::gil_scoped_release release;
         LoadRequest r;
         r.payload_mass = mass, r.height = height, r.path_angle = angle;
         r.drag_coefficient = drag, r.filling_constant = filling_constant;
+        r.snatch_speed = snatch_speed, r.packed_drag_area = packed;
         for (const auto& [share, duration] : reefing) r.reefing.push_back({share, duration});
         if (steady) r.steady = *steady;
         if (opening) r.opening = *opening;
@@ -36,7 +38,8 @@ void add_fastest(py::module_& module) {
       py::arg("height_m") = py::none(), py::arg("path_angle_deg") = 90.0,
       py::arg("reefing") = std::vector<std::pair<double, double>>(), py::arg("steady") = py::none(),
       py::arg("opening") = py::none(), py::arg("drag_coefficient") = py::none(),
-      py::arg("filling_constant") = py::none(), py::arg("out") = py::none(),
+      py::arg("filling_constant") = py::none(), py::arg("snatch_speed_m_s") = py::none(),
+      py::arg("packed_drag_area_m2") = py::none(), py::arg("out") = py::none(),
       "Finds the largest airspeed [m/s] at line stretch at which every member keeps its margin of safety:\n"
       "ripstop load --fastest.\n\n"
       "margin: margin of safety that is kept. steady, opening: run folders with the drag area. Other "

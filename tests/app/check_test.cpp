@@ -81,6 +81,10 @@ TEST_F(Check, AndADryRunEstimateTheTimeOfARun) {
   EXPECT_NE(table.output.find("  time               about 3.1 min on one core"), std::string::npos)
       << table.output;
   EXPECT_NEAR(nlohmann::json::parse(json.output)["core_time_s"].get<double>(), 186, 2);
+  EXPECT_EQ(table.output.find("not known in advance"), std::string::npos);
+  const Finished in_time =
+      ripstop_with({"check", examples + "flat-circular/case.toml", "--set", "flow.unsteady=true"});
+  EXPECT_NE(in_time.output.find("not known in advance"), std::string::npos) << in_time.output;
   const auto dry = [&](std::vector<std::string> more) {
     more.insert(more.begin(), {"steady", stratos, "--dry-run", "--out", (folder_ / "run").string()});
     return ripstop_with(more).output;

@@ -123,5 +123,75 @@ TEST(Options, AMistypedCommandOrOptionIsReportedWithTheNearestOne) {
     EXPECT_LT(run.output.size(), 300u) << run.output;  // one sentence, not a page of help
 }
 
+/// Options whose help shows a value as their default, with that value. Those that need another option, and defaults
+/// that the command derives, which are described in words, are not among them.
+std::vector<std::string> options_with_their_defaults(const std::string& command) {
+  std::vector<std::string> help = words(command);
+  help.push_back("--help");
+  const std::string text = ripstop_with(help).output;
+  const std::regex entry("\\n  (--[a-z-]+)([^\\n]*(?:\\n {20,}[^\\n]*)*)");
+  const std::regex shown("\\(default: ([^() ]+)\\)$");
+  std::vector<std::string> found;
+  for (std::sregex_iterator i(text.begin(), text.end(), entry), end; i != end; ++i) {
+    const std::string rest = (*i)[2];
+    std::smatch value;
+    if (rest.find("Needs:") == std::string::npos && std::regex_search(rest, value, shown))
+      found.push_back((*i)[1].str() + "=" + value[1].str());
+  }
+  return found;
+}
+
+TEST(Options, ADefaultInTheHelpIsTheValueThatIsUsed) {
+  const TemporaryFolder folder("defaults");
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path);
+  const std::string flat = examples + "flat-circular/case.toml";
+  const std::map<std::string, std::vector<std::string>> cheap = {
+      {"size", {"--mass", "2.4", "--descent-rate", "5", "--force"}},
+      {"load", {flat, "--mass", "2.4", "--speed", "20"}},
+      {"recovery", {flat, "--mass", "2.4", "--apogee", "500"}},
+      {"pattern", {flat}},
+      {"compare-flight", {examples + "flight-log/flight.csv", "--case", examples + "flight-log/main.toml"}},
+      {"photogrammetry", {RIPSTOP_SOURCE_DIR "/validation/ojf/stratos-iv-images.toml"}},
+      {"coupon", {"f-111", "--strain", "0.02"}}};
+  int tried = 0;
+  for (const auto& [command, needed] : cheap) {
+    std::vector<std::string> arguments = {command};
+    arguments.insert(arguments.end(), needed.begin(), needed.end());
+    const Finished omitted = ripstop_with(arguments);
+    EXPECT_EQ(omitted.code, 0) << omitted.output;
+    const std::vector<std::string> defaults = options_with_their_defaults(command);
+    EXPECT_FALSE(defaults.empty()) << command;
+    arguments.insert(arguments.end(), defaults.begin(), defaults.end());
+    EXPECT_EQ(ripstop_with(arguments).output, omitted.output) << command;
+    tried += int(defaults.size());
+  }
+  EXPECT_GE(tried, 35);
+  std::filesystem::current_path(before);
+}
+
+TEST(Options, AMistakeIsReportedWithTheMeaningOfTheOptionAndAnExample) {
+  const std::map<std::string, std::vector<std::string>> mistakes = {
+      {"--descent-rate (Required descent rate [m/s]; above 0 and at most 100) is missing",
+       {"size", "--mass", "2"}},
+      {"needs a value", {"size", "--descent-rate"}},
+      {"--mass is given more than once", {"size", "--mass", "2", "--mass", "3", "--descent-rate", "5"}},
+      {"argument case (Case file (TOML)) is missing", {"steady"}},
+      {"did you mean uniform?", {"inflate", stratos, "--air", "unform"}},
+      {"folder \"nowhere\" does not exist; give the folder of a finished run",
+       {"inflate", stratos, "--steady", "nowhere"}},
+      {"--speed and --fastest exclude each other: give one of them",
+       {"load", stratos, "--speed", "3", "--fastest"}},
+      {"--margin needs --fastest: give both", {"load", stratos, "--speed", "3", "--margin", "1"}},
+      {"needs 3 values", {"steady", stratos, "--grid", "24,24"}}};
+  for (const auto& [message, arguments] : mistakes) {
+    const Finished run = ripstop_with(arguments);
+    EXPECT_EQ(run.code, 2) << run.output;
+    EXPECT_NE(run.output.find(message), std::string::npos) << run.output;
+    EXPECT_NE(run.output.find("Example: ripstop " + arguments.front()), std::string::npos) << run.output;
+  }
+  EXPECT_NE(ripstop_with({"calibrate"}).output.find("damping or porosity"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace ripstop

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "builders.h"
+#include "ripstop/cloth/step_memory.h"
 
 namespace ripstop {
 namespace {
@@ -201,6 +202,30 @@ TEST(Contact, AnyNumberOfThreadsGivesTheSameBits) {
     }
     EXPECT_EQ(damped[other], damped[0]);
   }
+}
+
+TEST(Contact, TheListOfAnEarlierCallDoesNotChangeTheMotion) {
+  const Mesh mesh = two_sheets(5 * spacing);
+  const ClothPtr cloth = make_cloth(mesh, with_contact(mesh));
+  ClothState start = start_state(*cloth);
+  set_positions(start, *cloth, lowered(mesh, 4.5 * spacing));
+  const double dt = 0.2 * stability_limit(*cloth, start).stable_step;
+  ThreadTeam team(1);
+  const auto stepped = [&](StepMemory& memory, StepRecord& record) {
+    ClothState state = start;
+    step(state, *cloth, {}, dt, 100, team, &record, memory);
+    return state;
+  };
+  StepMemory memory, anew;
+  StepRecord first, kept, none;
+  stepped(memory, first);
+  ASSERT_TRUE(memory.contact);
+  const Contact* list = memory.contact.get();
+  const ClothState a = stepped(memory, kept), b = stepped(anew, none);
+  EXPECT_EQ(memory.contact.get(), list);
+  EXPECT_TRUE(a.x == b.x && a.v == b.v);
+  EXPECT_GT(none.damped, 0);
+  EXPECT_EQ(kept.damped, none.damped) << "that of this call only";
 }
 
 TEST(Contact, AStepIsNoLongerThanItAllows) {

@@ -18,12 +18,14 @@ TEST(UsUnits, AHeightOfZeroIsInFeet) {
 }
 
 TEST(UsUnits, HaveNoExponentWhereTheValueHasNone) {
-  EXPECT_EQ(with_us_units("apogee 3048 m, 12 m3"), "apogee 3048 m (10000 ft), 12 m3 (732285 in3)");
+  EXPECT_EQ(with_us_units("apogee 3048 m, 12 m3"), "apogee 3048 m (10000 ft), 12 m3 (732000 in3)");
 }
 
 TEST(UsUnits, ConvertBothEndsOfARangeAndAnUncertainty) {
   EXPECT_EQ(with_us_units("10 to 20 m/s"), "10 to 20 m/s (32.8 to 65.6 ft/s)");
-  EXPECT_EQ(with_us_units("1.000 +- 0.010 m"), "1.000 +- 0.010 m (3.281 +- 0.0328 ft)");
+  EXPECT_EQ(with_us_units("7.8 to 8.624 m/s"), "7.8 to 8.624 m/s (25.59 to 28.29 ft/s)");
+  EXPECT_EQ(with_us_units("1234 +- 0.01 N"), "1234 +- 0.01 N (277.4 +- 0.002 lbf)");
+  EXPECT_EQ(with_us_units("1.000 +- 0.010 m"), "1.000 +- 0.010 m (3.281 +- 0.033 ft)");
 }
 
 TEST(UsUnits, LeaveOtherTextUnchanged) {

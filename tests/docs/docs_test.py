@@ -87,6 +87,16 @@ class Docs(unittest.TestCase):
         text = "".join(page.read_text() for page in PAGES)
         self.assertEqual([page.name for page in TABLES.glob("*.md") if f"tables/{page.name}" not in text], [])
 
+    def test_defaults_in_the_help_are_values_of_variables_or_words(self):
+        """show_defaults() appends them; a number typed into a description would not follow the code."""
+        typed = []
+        for file in sorted((ROOT / "apps/ripstop").glob("*.cpp")):
+            text = re.sub(r'"\s*\n\s*"', "", file.read_text())
+            if file.name != "option.cpp" and "(default" in text:
+                typed.append(f"{file.name}: a default in a description")
+            typed += [f"{file.name}: {word}" for word in re.findall(r'default_str\("([^"]*)"\)', text) if re.search(r"(?<!\w)[\d.]+(?!\w)", word)]
+        self.assertEqual(typed, [])
+
     def test_the_scoreboard_shows_the_present_tables(self):
         spec = importlib.util.spec_from_file_location("scoreboard", ROOT / "validation/scoreboard.py")
         board = importlib.util.module_from_spec(spec)

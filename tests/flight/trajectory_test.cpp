@@ -154,5 +154,16 @@ TEST(Trajectory, QuantitiesThatAreNotAboveZeroAreRefused) {
   EXPECT_THROW(fly(state, 1, leg(one, 1, 0.1)), Error);
 }
 
+TEST(Trajectory, InAirOfAnotherDensityHasItsDrag) {
+  Leg thin = leg([](double, double) { return 1.0; }, 20, 0.01);
+  thin.ground = -2000, thin.density_ratio = 0.8;
+  FlightState state{0, 0, 0, 1000, 30, 90};
+  const std::vector<FlightRow> rows = fly(state, 10, thin);
+  EXPECT_NEAR(rows.front().force, 0.5 * 0.8 * standard_air(1000).density * 900, 1e-9);
+  const double density = 0.8 * standard_air(state.height).density;
+  EXPECT_NEAR(rows.back().density, density, 1e-12);
+  EXPECT_NEAR(state.speed / std::sqrt(2 * 10 * standard_gravity / density), 1, 1e-2);
+}
+
 }  // namespace
 }  // namespace ripstop

@@ -21,6 +21,7 @@ class ForceOverTime final : public Flow {
       now_.length = 0.01, now_.time = 0.01 * ++now_.step;
       now_.force = {0.1 * force_(now_.time), 0, force_(now_.time)};
       now_.momentum_gap = {0, 0, 0.25};
+      now_.mass_defect = 0.1 / now_.step;
       if (report && !report(now_)) break;
     }
     return now_;
@@ -69,6 +70,8 @@ TEST(Watch, EndsWhenTheMeanIsKnownAndLeavesTheStartUpOut) {
   EXPECT_NEAR(mean.momentum_deficit.z, mean.porous_force.z - 0.25, 1e-9);
   EXPECT_NEAR(record.side_x.mean, 0.1 * record.drag.mean, 1e-9);
   EXPECT_NEAR(record.swing.frequency, 5 / (2 * 3.14159265), 0.1);
+  // Of the first step after the start-up, which is the largest: the steps before are left out.
+  EXPECT_NEAR(record.largest_mass_defect() * record.start_up, 0.1 * 0.01, 0.01 * 0.1 * 0.01);
 }
 
 TEST(Watch, TheStreamHasBeenThroughTheBoxBeforeTheMeanBegins) {

@@ -15,6 +15,7 @@
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/trajectory.h"
 #include "ripstop/flow/cartesian/cartesian.h"
+#include "ripstop/fsi/adaptive_stepper.h"
 #include "ripstop/fsi/coupled_step.h"
 #include "ripstop/fsi/transfer.h"
 
@@ -104,7 +105,8 @@ class Together {
   void step(double length, int least, double share) {
     const double stable = share * stability_limit(*cloth_, state_).stable_step;
     const int steps = std::max(least, static_cast<int>(std::ceil(length / stable)));
-    const ClothMotion motion = predict_motion(state_, *cloth_, air_.last_load(memory_), length, steps, team_);
+    const ClothMotion motion =
+        predict_motion(state_, *cloth_, air_.last_load(memory_), length, steps, team_, step_memory_);
     air_.step(x, motion, length, {}, memory_);
     double residual_traction = 0;
     loads = air_.transfer(x, {}, memory_, residual_traction);
@@ -121,6 +123,7 @@ class Together {
   ThreadTeam team_{1};
   ClothState state_ = start_state(*cloth_);
   AirMemory memory_;
+  StepMemory step_memory_;
 };
 
 /// How far the piston has come after `duration`, in steps of the air of `step`; the cloth takes `least` steps or more
@@ -392,6 +395,28 @@ TEST(CoupledFlow, TheLoadGoesWithTheDensityOfTheHeight) {
   EXPECT_NEAR(low[1] / high[1], 1, 1e-3);
   EXPECT_NEAR(low[2] / high[2], thicker, 1e-3 * thicker);
   EXPECT_NEAR(slower / slow, thicker, 1e-9);
+}
+
+TEST(AdaptiveStepper, TheStabilityLimitIsThatOfTheStateAndItsCloth) {
+  Mesh mesh = across_the_duct(5, 0.04, 2000);
+  for (SpringLaw& law : mesh.patches[0].law) law.coefficients = {2000, 5e4};
+  const ClothPtr light = make_cloth(mesh);
+  for (double& mass : mesh.mass) mass *= 4;
+  const ClothPtr heavy = make_cloth(mesh);
+  InflationState slack, taut;
+  slack.cloth = taut.cloth = start_state(*light);
+  std::vector<Vec3> stretched = mesh.start;
+  for (Vec3& x : stretched) x.x *= 1.2;
+  set_positions(taut.cloth, *light, stretched);
+  ThreadTeam team(1);
+  const AdaptiveStepper stepper(AdaptiveStepper::Step::renewed, 0.9, 1e-4, team);
+  const auto limit = [](const Cloth& cloth, const InflationState& state) {
+    return stability_limit(cloth, state.cloth).stable_step;
+  };
+  ASSERT_LT(limit(*light, taut), 0.9 * limit(*light, slack));
+  for (const Cloth* cloth : {light.get(), light.get(), heavy.get(), light.get()})
+    for (const InflationState* state : {&slack, &slack, &taut, &slack})
+      EXPECT_EQ(stepper.stable_step(*state, *cloth), limit(*cloth, *state));
 }
 
 }  // namespace

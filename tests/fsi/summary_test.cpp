@@ -132,8 +132,17 @@ TEST(Summary, NoPeakCountsDuringTheStartUp) {
 }
 
 TEST(OpeningEstimate, IsTheTypesCoefficientTimesTheDragAndUnknownWithoutIt) {
-  EXPECT_NEAR(opening_estimate(printed_stratos(25600), 400).load.value(), 520, 1e-9);
-  EXPECT_FALSE(opening_estimate(printed_stratos(25600), {}).load);
+  EXPECT_NEAR(opening_estimate(printed_stratos(25600), 400, 100).load.value(), 520, 1e-9);
+  EXPECT_FALSE(opening_estimate(printed_stratos(25600), {}, 500).load);
+}
+
+TEST(OpeningEstimate, HasAtLeastTheLargestDragCoefficientOfTheHandbook) {
+  const Design design = printed_stratos(25600);
+  const double drag = experience(design).drag_coefficient.high * nominal_area(design) * 2000;
+  ASSERT_GT(drag, 400);
+  const OpeningEstimate estimate = opening_estimate(design, 400, 2000, "steady run");
+  EXPECT_NEAR(estimate.load.value(), experience(design).opening_coefficient * drag, 1e-9);
+  EXPECT_NE(estimate.drag_from.find("steady run: 400.0 N"), std::string::npos) << estimate.drag_from;
 }
 
 // Area = 2 (t / 0.2)^3 until 0.2 s, then constant.

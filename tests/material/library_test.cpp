@@ -6,8 +6,10 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <regex>
 #include <sstream>
+#include <utility>
 
 #include "ripstop/core/file.h"
 #include "ripstop/core/toml/problem.h"
@@ -15,6 +17,7 @@
 #include "ripstop/material/fit_material.h"
 #include "ripstop/material/permeability.h"
 #include "ripstop/material/spring_law.h"
+#include "ripstop/material/strength.h"
 
 namespace ripstop {
 namespace {
@@ -106,14 +109,81 @@ TEST(Library, EveryClothBreaksWhereItsCurveReachesItsBreakingLoad) {
 TEST(Library, EveryLineBreaksWhereItsCurveReachesItsBreakingLoad) {
   for (const Material& material : everything()) {
     const auto* line = std::get_if<Line>(&material);
-    if (!line || line->break_load_n == 0) continue;
+    if (!line) continue;
     EXPECT_NEAR(SpringLaw({line->coefficients_n, 1}).tension(line->tested_strain) / line->break_load_n, 1,
                 0.01)
         << line->name;
-    // No fibre bears more than 4 N/tex; a unit wrong by 1000 would.
-    EXPECT_LT(line->break_load_n / line->linear_density_kg_m, 4e6) << line->name;
-    EXPECT_GT(line->break_load_n / line->linear_density_kg_m, 0.1e6) << line->name;
   }
+}
+
+/// A row of the table of strengths in materials/README.md [N/tex].
+struct StrengthRow {
+  std::regex names;
+  double fibre = 0, low = 0, high = 0;
+};
+
+std::vector<StrengthRow> strength_table() {
+  std::vector<StrengthRow> rows;
+  std::istringstream lines(read_file(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "materials/README.md"));
+  const std::regex row(R"(\| ([a-z0-9*., -]+) \| ([\d.]+) \| ([\d.]+)(?: to ([\d.]+))? \|)");
+  for (std::string line; std::getline(lines, line);) {
+    std::smatch cells;
+    if (!std::regex_match(line, cells, row)) continue;
+    const std::string stars = std::regex_replace(cells[1].str(), std::regex(R"(\*)"), ".*");
+    const std::string names = std::regex_replace(stars, std::regex(", "), "|");
+    const double low = std::stod(cells[3]);
+    rows.push_back(
+        {std::regex(names), std::stod(cells[2]), low, cells[4].matched ? std::stod(cells[4]) : low});
+  }
+  return rows;
+}
+
+// 0.6 of the fibre in a braid, or in the yarns of a weave, is assumed.
+TEST(Library, NoMaterialIsStrongerThanItsMassOfFibreAllows) {
+  constexpr double most = 0.6, rounding = 1.005;  // of loads to 1 N and masses to three digits
+  const std::vector<StrengthRow> table = strength_table();
+  EXPECT_EQ(table.size(), 5u);
+  for (const Material& material : everything()) {
+    const std::string name = name_of(material);
+    const std::optional<double> specific = specific_strength(material);
+    ASSERT_TRUE(specific) << name;
+    EXPECT_TRUE(material_warnings(material, 0).empty()) << name;
+    if (name == "nylon-tape") {  // the load at its tested strain
+      EXPECT_NEAR(*specific / 1e6, 0.024, 5e-4);
+      continue;
+    }
+    const auto row = std::find_if(table.begin(), table.end(),
+                                  [&](const StrengthRow& one) { return std::regex_match(name, one.names); });
+    ASSERT_NE(row, table.end()) << name << ": of which fibre?";
+    EXPECT_LE(*specific / 1e6, rounding * most * row->fibre) << name;
+    EXPECT_GE(*specific / 1e6, row->low - 0.005) << name;
+    EXPECT_LE(*specific / 1e6, row->high + 0.005) << name;
+  }
+}
+
+TEST(Library, AStrengthAboveThatOfTheStrongestFibreIsWarnedOf) {
+  Line line = std::get<Line>(library_material("spectra-line"));
+  line.name = "cord";
+  line.break_load_n = 0.99 * strongest_fibre * line.linear_density_kg_m;
+  EXPECT_TRUE(material_warnings(line, 0).empty());
+  line.break_load_n = 1.01 * strongest_fibre * line.linear_density_kg_m;
+  ASSERT_EQ(material_warnings(line, 0).size(), 1u);
+  EXPECT_EQ(material_warnings(line, 0)[0].find("cord: its strength (breaking load) is 4.04 N/tex"), 0u)
+      << material_warnings(line, 0)[0];
+  // Stiffness times an assumed strain: 9.3 kN of 2 g/m.
+  line.break_load_n = 0, line.tested_strain = 0.04;
+  ASSERT_EQ(material_warnings(line, 0).size(), 1u);
+  EXPECT_EQ(
+      material_warnings(line, 0)[0].find("cord: its strength (load at the tested strain) is 4.63 N/tex"), 0u)
+      << material_warnings(line, 0)[0];
+  Fabric cloth = std::get<Fabric>(library_material("f-111"));
+  cloth.break_load_n_m = 1.01 * strongest_fibre * cloth.areal_density_kg_m2 / 2;
+  EXPECT_EQ(material_warnings(cloth, 0).size(), 1u);
+  Tape tape = std::get<Tape>(library_material("nylon-tape"));
+  EXPECT_NEAR(*specific_strength(tape), 0.02 * (3064.2 * 0.3 + 68823.4 * 0.09) / 6e-3, 1);
+  tape.break_load_n = 0, tape.tested_strain = 0;
+  EXPECT_FALSE(specific_strength(tape));
+  EXPECT_TRUE(material_warnings(tape, 0).empty());
 }
 
 TEST(Library, ClothsLetThroughTheAirOfTheirSpecification) {

@@ -15,6 +15,7 @@
 #include "ripstop/run/flight/flight_folder.h"
 #include "ripstop/run/opening/inflation_folder.h"
 #include "ripstop/run/report/report.h"
+#include "ripstop/run/used_run.h"
 #include "tests/small_case.h"
 
 namespace ripstop {
@@ -102,6 +103,13 @@ TEST_F(ContinuedFlight, HandsOverVelocityLoadAndEnergy) {
   EXPECT_NEAR(row.payload.x, way, 0.05 * way);
   EXPECT_NEAR(row.angle, 60, 3) << "the canopy trails behind the payload";
   EXPECT_LT(flight.result.momentum_residual, 0.01);
+  EXPECT_LT(flight.result.mass_defect, 0.01);
+  // The warnings of the inflation are those of the flight too.
+  const std::vector<std::string>& all = flight.result.warnings;
+  for (const std::string& text : end_of_run(root.path / "first").texts)
+    EXPECT_TRUE(std::find(all.begin(), all.end(), text) != all.end() ||
+                std::find(all.begin(), all.end(), (root.path / "first").string() + ": " + text) != all.end())
+        << text;
 }
 
 // Other boundaries, or other cells: the flow is interpolated, and the result states so.

@@ -4,10 +4,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
+#include "ripstop/case/assemble.h"
 #include "ripstop/run/margins.h"
+#include "tests/small_case.h"
 
 namespace ripstop {
 namespace {
@@ -49,6 +55,32 @@ TEST(Quality, APeakDirectlyAfterTheStartUpIsNoOpeningLoad) {
 
 TEST(Quality, AMeasureThatIsNotInTheListIsAnError) {
   EXPECT_THROW(judge({{"no_such_measure", 1}}), std::logic_error);
+}
+
+// The hem of a canopy without tape was judged by load and check, but not in runs.
+TEST(MarginMembers, OfARunAreThoseOfALoadAndTheCloth) {
+  for (const char* tape : {"none", "nylon-tape"}) {
+    Case given = flat_circular_case(1, 500, 20);
+    given.parachute.tape.material = tape;
+    const Settings resolved = resolve(checked(given));
+    const CanopyMesh mesh = parachute_mesh(resolved);
+    StressPeak stress;
+    stress.warp = 100;
+    const Margins run = case_margins(resolved, mesh, std::vector<double>(mesh.springs.size(), 8.0), stress);
+    std::set<std::string> of_run, of_load = {"cloth"};
+    for (const Margin& m : weakest_of_kinds(run))
+      of_run.insert(m.member.starts_with("line") ? "line" : m.member);
+    for (const Margin& m : load_margins(resolved, 100).members) of_load.insert(m.member);
+    EXPECT_EQ(of_run, of_load) << tape;
+    const auto hem = std::find_if(run.members.begin(), run.members.end(),
+                                  [](const Margin& m) { return m.member == "hem"; });
+    ASSERT_EQ(hem != run.members.end(), std::string(tape) == "none");
+    if (hem == run.members.end()) continue;
+    double line = 0;
+    for (const Margin& m : run.members)
+      if (m.member.starts_with("line")) line = std::max(line, m.load);
+    EXPECT_NEAR(hem->load, line / 0.02, 1e-9 * hem->load);  // a hem of 20 mm
+  }
 }
 
 TEST(MarginWarnings, NameEveryKindOfMemberBelowZeroOnce) {

@@ -20,8 +20,12 @@ import debian
 TABLE = debian.ROOT / "docs/tables/portable.md"
 HEAD = """# Archive and wheel in empty systems
 
-`make test-portable`, {day}. `ripstop {arguments}` with the case of the README, in roots that debootstrap made (minbase),
-without a network; for the wheel with python3, python3-venv and python3-numpy, for the packages with those that they depend on.
+`make test-portable`, {day}, with the case of the README:
+
+    ripstop {arguments}
+
+It ran in roots that debootstrap made (minbase), without a network. Roots of the wheel also have python3, python3-venv and
+python3-numpy, and those of the packages have the packages on which they depend.
 
 | file | MB | system | drag, N | iterations | pictures as where it was built |
 |---|---|---|---|---|---|
@@ -168,7 +172,7 @@ def main():
     day = datetime.date.today()
     head = HEAD.format(day=f"{day.day} {day:%B %Y}", arguments=options.arguments)
     parts = [parts_of(file) for file in files]
-    if TABLE.exists() and f"`ripstop {options.arguments}`" in TABLE.read_text():  # other files of the same case
+    if TABLE.exists() and f"    ripstop {options.arguments}\n" in TABLE.read_text():  # other files of the same case
         names = {row.split("|")[1] for row in rows}
         earlier = TABLE.read_text().splitlines()[len(head.splitlines()):]
         rows = [row for row in earlier if row.startswith("|") and row.split("|")[1] not in names] + rows

@@ -2,24 +2,11 @@
 
 #include <utility>
 
-#include "ripstop/material/spring_law.h"
+#include "ripstop/material/strength.h"
 #include "ripstop/parachute/cut.h"
 
 namespace ripstop::inline canopy {
 namespace {
-
-struct Strength {
-  std::optional<double> value;
-  std::string from;
-};
-
-Strength strength_of(double break_load, const std::vector<double>& coefficients, double width,
-                     double tested_strain) {
-  if (break_load > 0) return {break_load, "breaking load"};
-  if (tested_strain > 0)
-    return {width * SpringLaw{coefficients}.tension(tested_strain), "load at the tested strain"};
-  return {std::nullopt, "not known: the material has neither break load nor tested strain"};
-}
 
 Margin margin_of(std::string member, double load, std::string unit, Strength strength, double knock_down,
                  double safety) {
@@ -57,19 +44,12 @@ Margins margins_of(const MemberLoads& loads, const MarginFactors& f, const Fabri
   const double joined = joined_share(f);
   Margins result;
   auto& members = result.members;
-  members.push_back(
-      margin_of("cloth", loads.cloth, "N/m",
-                strength_of(cloth.break_load_n_m, cloth.coefficients_n_m, 1, cloth.tested_strain), sewn,
-                f.safety_factor));
+  members.push_back(margin_of("cloth", loads.cloth, "N/m", strength_of(cloth), sewn, f.safety_factor));
   if (tape && loads.tape > 0)
-    members.push_back(
-        margin_of("tape", loads.tape, "N",
-                  strength_of(tape->break_load_n, tape->coefficients_n_m, tape->width_m, tape->tested_strain),
-                  sewn, f.safety_factor));
+    members.push_back(margin_of("tape", loads.tape, "N", strength_of(*tape), sewn, f.safety_factor));
   const auto add_line = [&](std::string member, double load, const Line& material) {
-    const Strength strength =
-        strength_of(material.break_load_n, material.coefficients_n, 1, material.tested_strain);
-    members.push_back(margin_of(std::move(member), load, "N", strength, joined, f.safety_factor));
+    members.push_back(
+        margin_of(std::move(member), load, "N", strength_of(material), joined, f.safety_factor));
   };
   for (std::size_t i = 0; i < loads.lines.size(); ++i)
     add_line("line " + std::to_string(i + 1), loads.lines[i], line);

@@ -65,9 +65,9 @@ struct Margins {
   std::string weakest;  // of those whose strength is known; empty: none
 };
 
-/// Strength is the break load, or where a material has none, the load at the strain up to which it was tested.
-/// `tape` is null where there is none. A rated load of hardware includes its maker's safety factor: the load alone is
-/// compared with it. The knock-down factors apply to the breaking load of textile hardware, as to a line.
+/// Strengths are those of strength_of(). `tape` is null where there is none. A rated load of hardware includes its
+/// maker's safety factor: the load alone is compared with it. The knock-down factors apply to the breaking load of
+/// textile hardware, as to a line.
 Margins margins_of(const MemberLoads& loads, const MarginFactors& factors, const Fabric& cloth,
                    const Tape* tape, const Line& line, const Line& riser, const HardwareParts& hardware = {});
 

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <numeric>
 #include <utility>
 
 #include "ripstop/canopy/mirror.h"
 #include "ripstop/case/bodies.h"
 #include "ripstop/case/cluster.h"
 #include "ripstop/case/cost.h"
+#include "ripstop/case/payload.h"
 #include "ripstop/core/error.h"
 #include "ripstop/flow/engines.h"
 #include "ripstop/flow/projections.h"
@@ -28,6 +30,17 @@ CanopyMesh in_flow(CanopyMesh mesh, const Settings& resolved) {
 
 CanopyMesh parachute_mesh(const Settings& resolved, const CanopyMesh* own) {
   return own ? in_flow(*own, resolved) : parachute_mesh(resolved.parachute(), resolved);
+}
+
+CanopyMesh mesh_as_cut(const Settings& resolved) {
+  CanopyMesh mesh = parachute_mesh(resolved);
+  const double whole = parachute_mass(resolved), share = whole / (whole - mass_beyond(mesh, resolved));
+  for (double& mass : mesh.mass) mass *= share;
+  return mesh;
+}
+
+double mass_beyond(const CanopyMesh& mesh, const Settings& resolved) {
+  return parachute_mass(resolved) - std::accumulate(mesh.mass.begin(), mesh.mass.end(), 0.0);
 }
 
 CanopyMesh parachute_mesh(const Design& design, const Settings& resolved) {

@@ -96,7 +96,7 @@ class Importer {
 
   /// `diameter` of the file's own opening [m], of a canopy so wide.
   double vent(double diameter, double widest) {
-    constexpr double share = 0.04;
+    constexpr double share = chute_vent_share;
     if (options_.vent_diameter) {
       if (std::abs(*options_.vent_diameter - diameter) > same)
         changed("vent: {:.6g} m as requested; the file has {:.6g} m", *options_.vent_diameter, diameter);
@@ -122,7 +122,7 @@ class Importer {
     text_ =
         fmt::format("arm_length_m = {:.9g}\narm_width_m = {:.9g}\n", canopy.arm_length_m, canopy.arm_width_m);
     canopy_ = canopy;
-    lines_ = 16;
+    lines_ = cross_line_count;
   }
 
   bool disk_gap_band(const ChuteSection& disk, const ChuteSection& band) {

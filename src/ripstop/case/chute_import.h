@@ -9,12 +9,15 @@
 
 namespace ripstop::inline cases {
 
+/// Assumed: lines of a cross, and the vent over the widest diameter where gores end in a point.
+constexpr int cross_line_count = 16;
+constexpr double chute_vent_share = 0.04;
+
 /// Data that the file does not contain.
 struct ChuteImportOptions {
-  std::optional<int> line_count;        // absent: one a gore; 16 on a cross (assumed)
+  std::optional<int> line_count;        // absent: one a gore, or cross_line_count
   std::optional<double> line_length;    // [m]; absent: the nominal diameter (assumed)
-  std::optional<double> vent_diameter;  // [m]; absent: the file's, or 4 % of the widest diameter where a gore
-                                        // ends in a point (assumed)
+  std::optional<double> vent_diameter;  // [m]; absent: the file's, or by chute_vent_share
 };
 
 /// A flat disk with or without a cylindrical band below, or a cone, of circular sections becomes `disk-gap-band`,

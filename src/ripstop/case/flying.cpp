@@ -207,6 +207,7 @@ void require_payload(const Settings& flight) {
 FlightProblem flight_problem(const Settings& flight, std::vector<Vec3> shape, std::vector<double> pressure,
                              int threads) {
   FlightProblem problem = problem_at(flight, flight.flow().speed_m_s, threads);
+  problem.mesh = mesh_as_cut(flight);
   problem.shape = std::move(shape), problem.pressure = std::move(pressure);
   return problem;
 }
@@ -214,6 +215,7 @@ FlightProblem flight_problem(const Settings& flight, std::vector<Vec3> shape, st
 FlightProblem flight_problem(const Settings& flight, const OpeningEnd& end, int threads) {
   const double rate = usual_rate(flight);
   FlightProblem problem = problem_at(flight, rate, threads);
+  problem.payload_mass += mass_beyond(problem.mesh, flight);  // as in the opening
   FoldedStart folded;
   folded.positions = end.folded, folded.folds = end.folds;
   problem.mesh = with_creases(problem.mesh, folded);

@@ -6,6 +6,7 @@
 #include <functional>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/bodies.h"
@@ -81,6 +82,25 @@ Case opening_case(const Case& given) {
   return opening;
 }
 
+OpeningAir opening_air(const Settings& resolved, std::optional<double> height, std::optional<double> ground) {
+  const FlowSettings& flow = resolved.flow();
+  const Source& source = resolved.source("flow.density_kg_m3");
+  OpeningAir air{flow.height_m.value_or(nearest_standard_height(flow.density_kg_m3)), flow.density_kg_m3,
+                 flow.height_m  ? fmt::format("flow.height_m = {:g} m of the case", *flow.height_m)
+                 : source.given ? "flow.density_kg_m3 of the case"
+                                : source.from};
+  const bool below = !height && ground && air.height < *ground;
+  if (below) air.height = *ground;
+  if (!height && !(below && flow.height_m)) return air;
+  if (height) air.height = *height;
+  const double own = std::exchange(air.density, standard_air(air.height).density);
+  air.from = height ? "the standard atmosphere at the given height"
+                    : "the standard atmosphere at the ground, which is above flow.height_m of the case";
+  if (height && rounded(own) != rounded(air.density))
+    air.from += fmt::format(", in place of the {} kg/m3 of the case", rounded(own));
+  return air;
+}
+
 LoadSource load_source(const Settings& opening) {
   const InflationSettings& inflation = opening.inflation();
   if (inflation.air == AirModel::coupled)
@@ -90,7 +110,7 @@ LoadSource load_source(const Settings& opening) {
                 std::string(inflation.pressure_pa ? "the pressure is given twice: leave out one"
                                                   : "the pressure is missing: give one") +
                     " of inflation.pressure_pa, inflation.drag_coefficient, --pressure and --steady RUN, or "
-                    "compute the flow (air \"coupled\")");
+                    "compute the flow with inflation.air = \"coupled\"");
   }
   if (inflation.pressure_pa) return {fmt::format("given: {:g} Pa", *inflation.pressure_pa), {}};
   const double speed = opening.flow().speed_m_s;
@@ -112,10 +132,11 @@ InflationProblem opening_problem(const Settings& opening, const LoadSource& sour
     require_memory(cost.memory, fmt::format("a coupled inflation with {:.3g} cells", cost.cells));
     require_canopy_alone(opening, "an opening");
     problem.air = AirProblem{flow_problem(opening), opening.inflation().courant};
+    // The inertia of hems and allowances counts at the payload, so that the cloth keeps that of its area.
     if (opening.inflation().mass == InflationSettings::Mass::payload)
-      problem.air->payload =
-          Payload{*opening.payload().mass_kg, standard_gravity, opening.inflation().flight_angle_deg,
-                  opening.payload().drag_area_m2, density_below(opening.flow().height_m)};
+      problem.air->payload = Payload{*opening.payload().mass_kg + mass_beyond(problem.mesh, opening),
+                                     standard_gravity, opening.inflation().flight_angle_deg,
+                                     opening.payload().drag_area_m2, density_below(opening.flow().height_m)};
     if (const auto deployment = deployment_of(opening)) start_from(*deployment, opening, problem);
     problem.settings.damping_n_s_m3 = problem.settings.quadratic_damping_n_s2_m4 = 0;
   } else {

@@ -10,10 +10,22 @@
 
 namespace ripstop::inline cases {
 
+/// The air at line stretch, or at the start of an inflation.
+struct OpeningAir {
+  double height = 0, density = 0;  // above sea level [m], [kg/m3]
+  std::string from;
+};
+/// The one rule for all commands: the air of the case (flow.density_kg_m3, flow.height_m or the row of [[measured]]),
+/// with the standard height of a density without a height; or the standard atmosphere at a `height` in its place, and
+/// at the `ground` where flow.height_m is below it.
+OpeningAir opening_air(const Settings& resolved, std::optional<double> height = {},
+                       std::optional<double> ground = {});
+
 /// Where the pressure came from.
 struct LoadSource {
-  std::string text;                   // for people: "steady run runs/a: 396.1 N"
-  std::optional<double> steady_drag;  // that the pressure is chosen for [N]
+  std::string text;                        // for people: "steady run runs/a: 396.1 N"
+  std::optional<double> steady_drag;       // that the pressure is chosen for [N]
+  std::vector<std::string> warnings = {};  // of the steady run
 };
 
 /// The case on a mesh that can be folded, with the line segments and the compression that [inflation] gives.

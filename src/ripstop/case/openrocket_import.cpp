@@ -127,14 +127,14 @@ class OpenRocketImporter {
       if (!options_.vent_diameter) mapped("spill hole {:.4g} m", given);
       return fmt::format("vent_diameter_m = {:.9g}\n", given);
     }
-    assumed("a vent of a tenth of the diameter (--vent-diameter)");
-    return fmt::format("vent_diameter_m = {:.9g}  # assumed\n", 0.1 * nominal_);
+    assumed("a vent of {:g} % of the diameter (--vent-diameter)", 100 * openrocket_vent_share);
+    return fmt::format("vent_diameter_m = {:.9g}  # assumed\n", openrocket_vent_share * nominal_);
   }
 
   int line_count() {
     if (options_.line_count) return *options_.line_count;
     if (d_.line_count.value_or(0) >= 3) return *d_.line_count;
-    return 8;
+    return openrocket_line_count;
   }
 
   std::string lines() {
@@ -144,13 +144,15 @@ class OpenRocketImporter {
     else if (!options_.line_count)
       assumed("{} lines: the file has {} (--lines)", count, d_.line_count.value_or(0));
     const bool given = d_.line_length.value_or(0) > 0;
-    const double length = options_.line_length.value_or(given ? *d_.line_length : 1.15 * nominal_);
+    const double length =
+        options_.line_length.value_or(given ? *d_.line_length : openrocket_line_share * nominal_);
     if (length <= 0.5 * nominal_)
       refuse(fmt::format(
           "has lines of {:.4g} m, too short to meet under a canopy of {:.4g} m; use --line-length", length,
           nominal_));
     if (!options_.line_length && given) mapped("lines of {:.4g} m", length);
-    if (!options_.line_length && !given) assumed("lines of 1.15 nominal diameters (--line-length)");
+    if (!options_.line_length && !given)
+      assumed("lines of {:g} nominal diameters (--line-length)", openrocket_line_share);
     std::string text = fmt::format("\n[parachute.lines]\ncount = {}\nlength_m = {:.9g}\n", count, length);
     if (d_.line_density) text += "material = \"imported-line\"\n";
     // Cells a tenth of the diameter suffice for a small vent; the number is that of the examples of openchute.

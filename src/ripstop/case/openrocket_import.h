@@ -14,14 +14,17 @@ namespace ripstop::inline cases {
 /// makers often state it together with a drag coefficient on the projected area.
 enum class GivenDiameter { constructed, projected };
 
+/// Assumed where the file has none: lines over the nominal diameter, vent over it, and number of lines.
+constexpr double openrocket_line_share = 1.15, openrocket_vent_share = 0.1;
+constexpr int openrocket_line_count = 8;
+
 /// Data that the file does not contain.
 struct OpenRocketImportOptions {
   GivenDiameter diameter = GivenDiameter::constructed;
-  std::optional<int> line_count;      // absent: the file's
-  std::optional<double> line_length;  // [m]; absent: the file's, or 1.15 nominal diameters (assumed)
-  std::optional<double>
-      vent_diameter;  // [m]; absent: the file's spill hole, or a tenth of the nominal diameter
-  std::optional<double> payload_mass;  // [kg]; absent: that of a stored simulation without its parachutes
+  std::optional<int> line_count;        // absent: the file's, or openrocket_line_count
+  std::optional<double> line_length;    // [m]; absent: the file's, or by openrocket_line_share
+  std::optional<double> vent_diameter;  // [m]; absent: the file's spill hole, or by openrocket_vent_share
+  std::optional<double> payload_mass;   // [kg]; absent: that of a stored simulation without its parachutes
 };
 
 /// The device that `wanted` names: its number in the list, counted from 1, or its name. Empty: the only parachute of

@@ -58,7 +58,7 @@ double usual_drag_coefficient(const Design& parachute) {
 }
 
 double usual_deployment_speed(double descent_rate) {
-  return std::max(20.0, 3 * descent_rate);
+  return std::max(least_deployment_speed, deployment_over_descent * descent_rate);
 }
 
 }  // namespace ripstop::inline cases

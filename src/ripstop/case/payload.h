@@ -27,7 +27,8 @@ double parachute_mass(const Settings& resolved);
 double payload_first_speed(const Case& given, double density);
 /// The middle of the family's range on the nominal area.
 double usual_drag_coefficient(const Design& parachute);
-/// Three times the descent rate, at least 20 m/s (assumed).
+/// Deployment speed: so many times the descent rate, but at least so many m/s (assumed).
+constexpr double deployment_over_descent = 3, least_deployment_speed = 20;
 double usual_deployment_speed(double descent_rate);
 /// Of `payload` [kg] and its parachute; the drag of the canopy carries both [N].
 double suspended_weight(const Settings& resolved, double payload);

@@ -6,6 +6,7 @@
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/cluster.h"
 #include "ripstop/case/cost.h"
+#include "ripstop/case/opening.h"
 #include "ripstop/parachute/own_mesh.h"
 
 namespace ripstop::inline cases {
@@ -61,6 +62,7 @@ CaseSummary summarize(const Settings& resolved) {
                      (jet ? nozzle_area(tunnel.nozzle) : grid.size.x * grid.size.y);
   summary.of_jet = jet;
   summary.air = {resolved.flow().speed_m_s, resolved.flow().density_kg_m3};
+  summary.air_source = opening_air(resolved).from;
   return summary;
 }
 

@@ -29,6 +29,7 @@ struct CaseSummary {
   double blockage = 0;   // disk of the start shape's diameter over the cross-section of the box or the nozzle
   bool of_jet = false;   // of the nozzle
   Air air;
+  std::string air_source;
 };
 
 /// Builds the mesh and the cloth, and throws their exceptions.

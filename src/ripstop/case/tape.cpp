@@ -8,7 +8,7 @@
 #include "ripstop/case/payload.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/words.h"
-#include "ripstop/flight/descent.h"
+#include "ripstop/fsi/opening_estimate.h"
 #include "ripstop/parachute/cut.h"
 
 namespace ripstop::inline cases {
@@ -67,8 +67,10 @@ TapeMaterial tape_material(const Case& given) {
   const bool sinks = given.payload.mass_kg && given.inflation.mass != InflationSettings::Mass::payload;
   const double speed = sinks ? usual_deployment_speed(stream.speed) : stream.speed;
   const double known = experience(given.parachute).opening_coefficient;
-  const double load = (known > 0 ? known : unknown_opening) * usual_drag_coefficient(given.parachute) *
-                      nominal_area(given.parachute) * 0.5 * stream.density * speed * speed;
+  const double drag = design_drag_coefficient(
+      given.parachute, given.inflation.drag_coefficient.value_or(usual_drag_coefficient(given.parachute)));
+  const double load = (known > 0 ? known : unknown_opening) * drag * nominal_area(given.parachute) * 0.5 *
+                      stream.density * speed * speed;
   TapeMaterial tape =
       tape_for(given, experience(given.parachute).line_load_factor * load / given.parachute.lines.count);
   tape.from += fmt::format(" when it opens at {:.3g} m/s", speed);

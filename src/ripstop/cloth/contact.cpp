@@ -16,6 +16,7 @@ constexpr int usual_contacts = 8;          // of a node
 constexpr double kick_angle = 0.5;         // fastest times interval: below 2 up to 64 contacts of a node
 constexpr int longest_kick = 16;           // in steps
 constexpr int most_cells = 256;            // along an axis
+constexpr double clearly_more = 1 + 1e-9;  // than rounding
 constexpr double most_stopped = 1.0 / 16;  // of a pair's relative momentum in one kick
 
 }  // namespace
@@ -78,6 +79,10 @@ Contact::Contact(const ContactLayout& layout, int threads)
       workers_(threads),
       lost_(layout.mover_slot.size()) {
   cells_.width = thickness * layout.largest_spacing + skin_;
+}
+
+void Contact::begin() {
+  std::fill(lost_.begin(), lost_.end(), 0.0);
 }
 
 int Contact::steps_a_kick(double dt) const {
@@ -175,9 +180,11 @@ void Contact::list_pairs(int rank) {
           const double spacing = 0.5 * (layout_.spacing[i] + layout_.spacing[j]);
           const Vec3 on_cloth = layout_.as_cut[j] - layout_.as_cut[i];
           if (dot(on_cloth, on_cloth) < neighbourhood * neighbourhood * spacing * spacing) continue;
-          const double folded = norm(layout_.folded[j] - layout_.folded[i]);
-          pairs.push_back(
-              {j, std::min(thickness * spacing, folded), layout_.stiffness_over_spacing * spacing});
+          const Vec3 folded = layout_.folded[j] - layout_.folded[i];
+          const double usual = thickness * spacing, square = dot(folded, folded);
+          const bool nearer = square < clearly_more * usual * usual;  // else no root is needed
+          pairs.push_back({j, nearer ? std::min(usual, std::sqrt(square)) : usual,
+                           layout_.stiffness_over_spacing * spacing});
         }
       }
     std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(before), pairs.end(),

@@ -41,11 +41,14 @@ struct ContactLayout {
 };
 ContactLayout contact_layout(const Mesh& mesh, const Cloth& cloth);
 
-/// Contacts of one cloth while it is stepped; nothing in it has to be kept from call to call.
+/// Contacts of one cloth while it is stepped. Nothing in it has to be kept from call to call, but the list of pairs
+/// saves time (step_memory.h).
 class Contact {
  public:
   Contact(const ContactLayout& layout, int threads);
 
+  /// Before the kicks of a call: damped() is 0.
+  void begin();
   /// Largest number of steps of `dt` that one kick can represent.
   int steps_a_kick(double dt) const;
   /// Called by every rank: changes the velocities by the impulse of the contacts in `interval` [s]. Ends with a

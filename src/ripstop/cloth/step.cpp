@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 
 #include "ripstop/cloth/contact.h"
 #include "ripstop/cloth/energy_record.h"
 #include "ripstop/cloth/forces.h"
 #include "ripstop/cloth/stability_limit.h"
+#include "ripstop/cloth/step_memory.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/words.h"
 
@@ -38,11 +40,21 @@ void check_step(const Cloth& cloth, const ClothState& state, double dt) {
   }
 }
 
+/// That of the memory if it is of this cloth; null without contact.
+Contact* contact_of(const Cloth& cloth, int threads, StepMemory& memory) {
+  if (memory.layout != cloth.contact || memory.threads != threads) {
+    memory = {cloth.contact, {}, threads};
+    if (cloth.contact) memory.contact = std::make_shared<Contact>(*cloth.contact, threads);
+  }
+  if (memory.contact) memory.contact->begin();
+  return memory.contact.get();
+}
+
 /// Steps [0, count) of one call, shared by all threads.
 class ExplicitStep {
  public:
   ExplicitStep(ClothState& state, const Cloth& cloth, const Loads& loads, double dt, int count,
-               ThreadTeam& team, StepRecord* record);
+               ThreadTeam& team, StepRecord* record, StepMemory& memory);
 
   /// Step n. Semi-implicit Euler, [NFM] Eq. 6, with damping by area, Eq. 20, and contact in kicks of several steps:
   ///   f = f_springs(x, v) + f_fabric(x, v) + f_pressure(x) + f_point - area (C_a + C_q |v|) v
@@ -84,13 +96,13 @@ class ExplicitStep {
   bool damped_;                                 // by area
   AlignedDoubles inverse_mass_, area_;          // by slot; 0 for irregular nodes; no areas: no damping
   std::vector<double> irregular_inverse_mass_;  // 0: does not move
-  std::optional<Contact> contact_;
+  Contact* contact_;                            // may be null
   int steps_per_kick_ = 0;
   std::optional<EnergyRecord> record_;
 };
 
 ExplicitStep::ExplicitStep(ClothState& state, const Cloth& cloth, const Loads& loads, double dt, int count,
-                           ThreadTeam& team, StepRecord* record)
+                           ThreadTeam& team, StepRecord* record, StepMemory& memory)
     : state_(state),
       cloth_(cloth),
       dt_(dt),
@@ -98,7 +110,8 @@ ExplicitStep::ExplicitStep(ClothState& state, const Cloth& cloth, const Loads& l
       team_(team),
       forces_(cloth, loads, true, team.size()),
       damped_(cloth.options.absolute_damping > 0 || cloth.options.quadratic_damping > 0),
-      inverse_mass_(cloth.slots, 0.0) {
+      inverse_mass_(cloth.slots, 0.0),
+      contact_(contact_of(cloth, team.size(), memory)) {
   const auto inverse = [&](int node) {
     return cloth.is_fixed[node] || !(cloth.total_mass[node] > 0) ? 0.0 : 1 / cloth.total_mass[node];
   };
@@ -112,8 +125,7 @@ ExplicitStep::ExplicitStep(ClothState& state, const Cloth& cloth, const Loads& l
     for (int node = 0; node < cloth.mesh.node_count(); ++node)
       if (const int slot = cloth.slot[node]; inverse_mass_[slot] > 0) area_[slot] = cloth.area[node];
   }
-  if (cloth.contact)
-    contact_.emplace(*cloth.contact, team.size()), steps_per_kick_ = contact_->steps_a_kick(dt);
+  if (contact_) steps_per_kick_ = contact_->steps_a_kick(dt);
   if (record) record_.emplace(*record, cloth, forces_, state, dt, count, team);
 }
 
@@ -179,11 +191,17 @@ void ExplicitStep::integrate_irregular(int begin, int end) {
 
 void step(ClothState& state, const Cloth& cloth, const Loads& loads, double dt, int count, ThreadTeam& team,
           StepRecord* record) {
+  StepMemory memory;
+  step(state, cloth, loads, dt, count, team, record, memory);
+}
+
+void step(ClothState& state, const Cloth& cloth, const Loads& loads, double dt, int count, ThreadTeam& team,
+          StepRecord* record, StepMemory& memory) {
   if (!(dt > 0) || !std::isfinite(dt))
     throw Error(ExitCode::usage, fmt::format("the time step {} s must be positive and finite", dt));
   if (count < 0)
     throw Error(ExitCode::usage, fmt::format("{} steps of the cloth: must be at least 0", count));
-  ExplicitStep steps(state, cloth, loads, dt, count, team, record);
+  ExplicitStep steps(state, cloth, loads, dt, count, team, record, memory);
   for (int done = 0; done < count;) {
     const long long since = state.steps % steps_between_checks;
     if (since == 0) check_step(cloth, state, dt);

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "ripstop/core/units.h"
+#include "ripstop/core/words.h"
 
 namespace ripstop {
 namespace {
@@ -73,12 +74,21 @@ const UsUnit* unit_at(std::string_view text) {
   return found == us_units.end() ? nullptr : &*found;
 }
 
-/// All digits before the point, so that no number gets an exponent that was printed without one.
-std::string converted(const Printed& number, const UsUnit& unit, bool in_inches) {
-  const double value = number.value / (in_inches ? inch : unit.factor);
-  const int whole =
-      std::abs(value) < 1e9 ? static_cast<int>(std::to_string(std::llround(std::abs(value))).size()) : 1;
-  return fmt::format("{:.{}g}", value, std::max({3, number.digits, whole}));
+double converted(const Printed& number, const UsUnit& unit, bool in_inches) {
+  return number.value / (in_inches ? inch : unit.factor);
+}
+
+std::string shown(const Printed& number, const UsUnit& unit, bool in_inches) {
+  return rounded(converted(number, unit, in_inches), std::max(3, number.digits));
+}
+
+/// An uncertainty has the decimals of its value, or one digit if that would be 0.
+std::string shown_error(const Printed& error, const std::string& value, const UsUnit& unit, bool in_inches) {
+  const double size = converted(error, unit, in_inches);
+  const std::size_t point = value.find('.');
+  const auto decimals = point == std::string::npos ? 0 : value.size() - point - 1;
+  const std::string text = fmt::format("{:.{}f}", size, decimals);
+  return text.find_first_of("123456789") == std::string::npos ? rounded(size, 1) : text;
 }
 
 }  // namespace
@@ -111,9 +121,12 @@ std::string with_us_units(const std::string& text) {
     const std::string_view si = unit->si;
     const double largest = std::max(std::abs(first.value), std::abs(second.value));
     const bool inches = si == "m" && largest > 0 && largest < small_length;
-    result +=
-        fmt::format(" {} ({}{}{} {})", si, converted(first, *unit, inches), between,
-                    between.empty() ? "" : converted(second, *unit, inches), inches ? "in" : unit->name);
+    if (between == " to ") first.digits = second.digits = std::max(first.digits, second.digits);
+    const std::string value = shown(first, *unit, inches);
+    const std::string other = between.empty()     ? ""
+                              : between == " to " ? shown(second, *unit, inches)
+                                                  : shown_error(second, value, *unit, inches);
+    result += fmt::format(" {} ({}{}{} {})", si, value, between, other, inches ? "in" : unit->name);
     i += 1 + si.size();
   }
   return result;

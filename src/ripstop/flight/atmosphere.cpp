@@ -77,6 +77,11 @@ double standard_height(double density) {
   return 0.5 * (low + high);
 }
 
+double nearest_standard_height(double density) {
+  return standard_height(
+      std::clamp(density, standard_air(highest_height).density, standard_air(lowest_height).density));
+}
+
 double density_ratio(double height, double fallen) {
   return standard_air(std::max(height - fallen, lowest_height)).density / standard_air(height).density;
 }

@@ -27,6 +27,9 @@ StandardAir standard_air(double height);
 /// has nowhere between lowest_height and highest_height.
 double standard_height(double density);
 
+/// The same, at a density outside of those the nearer limit.
+double nearest_standard_height(double density);
+
 /// Density `fallen` metres below `height` over that at `height` [m]; below lowest_height that of lowest_height.
 double density_ratio(double height, double fallen);
 

@@ -36,7 +36,7 @@ class Flight {
     FlightRow row;
     const double speed = std::hypot(m.u, m.w);
     row.state = {time, m.s, m.x, m.h, speed, std::atan2(m.w, m.u) / degree};
-    row.density = standard_air(m.h).density;
+    row.density = density_at(m.h);
     row.drag_area = leg_.drag_area(time - begin, m.s - before_);
     row.force = 0.5 * row.density * speed * speed * row.drag_area;
     return row;
@@ -45,7 +45,7 @@ class Flight {
   Motion rate(const Motion& m, double time) const {
     const double speed = std::hypot(m.u, m.w);
     const double area = leg_.drag_area(time, m.s - before_);
-    const InPlane a = acceleration({mass_, standard_gravity}, {m.u, m.w}, standard_air(m.h).density, area);
+    const InPlane a = acceleration({mass_, standard_gravity}, {m.u, m.w}, density_at(m.h), area);
     return {m.u, -m.w, speed, a.level, a.down};
   }
 
@@ -61,6 +61,11 @@ class Flight {
   }
 
  private:
+  /// The last step may end below the ground before it is shortened.
+  double density_at(double height) const {
+    return leg_.density_ratio * standard_air(std::max(height, leg_.ground)).density;
+  }
+
   double mass_;
   const Leg& leg_;
   double before_;

@@ -28,9 +28,10 @@ using DragArea = std::function<double(double time, double distance)>;
 /// A part of the trajectory under one law of the drag area.
 struct Leg {
   DragArea drag_area;
-  double duration = 0;  // [s]
-  double step = 0;      // of the time, at most [s]
-  double ground = 0;    // the leg ends there [m]
+  double duration = 0;       // [s]
+  double step = 0;           // of the time, at most [s]
+  double ground = 0;         // the leg ends there [m]
+  double density_ratio = 1;  // of the air to that of the standard atmosphere at every height
   bool until_steady =
       false;  // and where the speed is the terminal one within 0.1 %, straight down within 0.1 deg
 };

@@ -21,7 +21,9 @@ inline constexpr const char *infinite_mass_model = "infinite-mass opening load",
                             *finite_mass_model = "finite-mass handbook methods",
                             *filling_model = "handbook filling distance", *flow_model = "incompressible flow",
                             *scaled_drag_model = "drag area of a run at another speed",
-                            *permeability_model = "permeability of open cloth";
+                            *permeability_model = "permeability of open cloth",
+                            *porous_cells_model =
+                                "drag of the coefficients of [NFM] (porosity_model = \"paper\")";
 
 struct ModelValue {
   const char* quantity;

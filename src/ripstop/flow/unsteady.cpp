@@ -105,6 +105,14 @@ double FlowRecord::watched() const {
   return steps.empty() ? 0 : steps.back().time - steps.front().time + steps.front().length;
 }
 
+double FlowRecord::largest_mass_defect() const {
+  double largest = 0;
+  for (const FlowStep& step : steps)
+    if (step.time - steps.front().time + steps.front().length > start_up)
+      largest = std::max(largest, step.mass_defect);
+  return largest;
+}
+
 namespace {
 
 /// Whether the record is enough, or as long as it may become. Sets its means so far, and the progress.

@@ -37,7 +37,8 @@ struct FlowRecord {
   bool enough = false;                // the standard error reached the required value
   std::vector<FlowSlice> slices;      // the last ones, evenly in time
 
-  double watched() const;  // [s]
+  double watched() const;              // [s]
+  double largest_mass_defect() const;  // FlowStep::mass_defect of the steps after the start-up
 };
 
 struct WatchProgress {

@@ -34,8 +34,12 @@ int steps_in(double duration, double step, double time, int rows) {
 }
 
 double AdaptiveStepper::stable_step(const InflationState& state, const Cloth& cloth) const {
+  if (last_.cloth == &cloth && last_.x == state.cloth.x && last_.v == state.cloth.v) return last_.stable_step;
   const StabilityLimit limit = stability_limit(cloth, state.cloth);
-  if (limit.stable_step > shortest_stable_step) return limit.stable_step;
+  if (limit.stable_step > shortest_stable_step) {
+    last_ = {&cloth, state.cloth.x, state.cloth.v, limit.stable_step};
+    return limit.stable_step;
+  }
   const std::string place = limit.node < 0 ? limit.part : fmt::format("node {} ({})", limit.node, limit.part);
   throw Error(ExitCode::diverged,
               fmt::format("t = {:.6g} s: the stability limit has decreased to {:.3g} s at {}: the motion of "
@@ -83,7 +87,7 @@ std::vector<HistoryRow> AdaptiveStepper::compute(
   std::vector<HistoryRow> rows;
   for (int done = 0; done < span.rows; done += span.under_one_load) {
     const long long index = span.first + done;
-    step(state.cloth, cloth, load_of(index), dt, steps * span.under_one_load, team_, &state.record);
+    step(state.cloth, cloth, load_of(index), dt, steps * span.under_one_load, team_, &state.record, memory_);
     state.cloth.time = static_cast<double>(index + span.under_one_load) * row_;
     for (int i = 0; i < span.under_one_load; ++i)
       rows.push_back(row_of_history(state, index + i, steps, dt, i * steps));

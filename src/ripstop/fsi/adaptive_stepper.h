@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "ripstop/cloth/cloth.h"
+#include "ripstop/cloth/step_memory.h"
 #include "ripstop/fsi/opening_record.h"
 
 namespace ripstop::inline fsi {
@@ -32,7 +33,9 @@ class AdaptiveStepper {
       : kind_(kind), fraction_(step_fraction), row_(row), team_(team) {}
 
   double row() const { return row_; }  // [s]
-  /// The stability limit at the present strain [s]. Throws Error(diverged) for one that is too small for intact cloth.
+  StepMemory& memory() const { return memory_; }
+  /// The stability limit at the present strain [s]; evaluated once for the same state. Throws Error(diverged) for one
+  /// that is too small for intact cloth.
   double stable_step(const InflationState& state, const Cloth& cloth) const;
   /// `step_fraction` of it [s].
   double allowed_step(const InflationState& state, const Cloth& cloth) const;
@@ -55,9 +58,18 @@ class AdaptiveStepper {
                                   const std::function<const Loads&(long long)>& load_of) const;
   HistoryRow row_of_history(InflationState& state, long long index, int steps, double dt, int from) const;
 
+  /// State of the last evaluation of the stability limit, which depends on positions and velocities only.
+  struct Evaluation {
+    const Cloth* cloth = nullptr;
+    AlignedDoubles x, v;
+    double stable_step = 0;  // [s]
+  };
+
   Step kind_;
   double fraction_, row_;
   ThreadTeam& team_;
+  mutable StepMemory memory_;
+  mutable Evaluation last_;  // the end of a step is the start of the next one
 };
 
 }  // namespace ripstop::inline fsi

@@ -103,9 +103,9 @@ std::vector<Vec3> smoothed_velocity(const MovingCells& cells, double width) {
 }  // namespace
 
 ClothMotion predict_motion(const ClothState& state, const Cloth& cloth, const Loads& last_load, double length,
-                           int steps, ThreadTeam& team) {
+                           int steps, ThreadTeam& team, StepMemory& memory) {
   ClothState moved = state;
-  ripstop::step(moved, cloth, last_load, length / steps, steps, team);
+  ripstop::step(moved, cloth, last_load, length / steps, steps, team, nullptr, memory);
   const std::vector<Vec3> before = positions(state, cloth);
   ClothMotion motion{positions(moved, cloth), steps};
   for (std::size_t n = 0; n < before.size(); ++n)
@@ -113,8 +113,9 @@ ClothMotion predict_motion(const ClothState& state, const Cloth& cloth, const Lo
   return motion;
 }
 
-CoupledFlow::CoupledFlow(const AirProblem& problem, const Mesh& mesh)
-    : engine_(problem.engine),
+CoupledFlow::CoupledFlow(const AirProblem& problem, const Mesh& mesh, ThreadTeam* team)
+    : team_(team),
+      engine_(problem.engine),
       grid_(problem.flow.grid),
       courant_(problem.courant),
       density_(problem.flow.air.density),
@@ -185,7 +186,8 @@ FlowStep CoupledFlow::step(const std::vector<Vec3>& positions, const ClothMotion
 
 Loads CoupledFlow::transfer(const std::vector<Vec3>& positions, const Surroundings& surroundings,
                             AirMemory& memory, double& residual_traction) const {
-  ClothLoad load = load_of_flow(flow_.sheet_loads(), grid_, surface_, cells_, positions, Folds::filled);
+  ClothLoad load =
+      load_of_flow(flow_.sheet_loads(), grid_, surface_, cells_, positions, Folds::filled, team_);
   residual_traction = residual_traction_share(load, cells_, positions);
   memory.pressure = std::exchange(load.pressure, std::vector<double>(cells_.size(), 0.0));
   memory.force = node_forces(load, cells_, positions);

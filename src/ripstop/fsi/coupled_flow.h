@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "ripstop/cloth/cloth.h"
+#include "ripstop/cloth/step_memory.h"
 #include "ripstop/core/members.h"
 #include "ripstop/flow/flow.h"
 #include "ripstop/fsi/flow_at_density.h"
@@ -106,15 +107,17 @@ struct ClothMotion {
   int steps = 1;               // of the cloth within it
 };
 
-/// Predictor: `steps` steps of the cloth, together of `length` [s], under `last_load`.
+/// Predictor: `steps` steps of the cloth, together of `length` [s], under `last_load`. The memory saves time in steps
+/// from the same state.
 ClothMotion predict_motion(const ClothState& state, const Cloth& cloth, const Loads& last_load, double length,
-                           int steps, ThreadTeam& team);
+                           int steps, ThreadTeam& team, StepMemory& memory);
 
 class CoupledFlow {
  public:
   /// Throws Error(usage) where the engine cannot step in time, the flow has no single sheet, or the box no room for the
   /// mesh as it is cut.
-  CoupledFlow(const AirProblem& problem, const Mesh& mesh);
+  /// `team` shares the work of projection and transfer; the results do not depend on it.
+  CoupledFlow(const AirProblem& problem, const Mesh& mesh, ThreadTeam* team = nullptr);
 
   /// Largest length of the next step of the flow [s].
   double longest_step() { return flow_.longest_step(courant_); }
@@ -149,6 +152,7 @@ class CoupledFlow {
   SheetMotion sheet_motion(const std::vector<Vec3>& positions, const ClothMotion& predicted, double length,
                            const AirMemory& memory) const;
 
+  ThreadTeam* team_;
   std::shared_ptr<FlowEngine> engine_;
   FlowGrid grid_;
   double courant_, density_;       // the latter at deployment [kg/m3]

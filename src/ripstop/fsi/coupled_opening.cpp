@@ -72,7 +72,7 @@ double mean_load(const std::vector<HistoryRow>& history, int rows) {
 CoupledOpening::CoupledOpening(InflationProblem problem)
     : Opening(problem, problem.settings.duration_s, least_rows_in(problem.air->flow),
               AdaptiveStepper::Step::renewed),
-      air_(std::make_unique<CoupledFlow>(*problem.air, mesh())) {
+      air_(std::make_unique<CoupledFlow>(*problem.air, mesh(), &team())) {
   check_width(folded(), problem.air->flow.grid);
   check_folds(folded(), cells_of(mesh()), problem.air->flow.grid);
 }

@@ -22,6 +22,7 @@ struct FreeFlightRow {
   double step = 0, courant = 0;   // of the flow [s], [-]
   double residual_traction = 0;
   double momentum_gap = 0;  // of the air in this step, magnitude [N]
+  double mass_defect = 0;   // FlowStep::mass_defect
 };
 
 template <class T, class Visit>
@@ -49,6 +50,7 @@ void each_member(T& row, Visit&& visit) {
   visit("courant", row.courant);
   visit("load_remainder", row.residual_traction);
   visit("momentum_gap_n", row.momentum_gap);
+  visit("mass_defect", row.mass_defect);
 }
 
 /// Everything that the next step depends on, to the last bit.

@@ -53,7 +53,8 @@ FlowField averaged_flow(Flow& flow, const FlowProblem& problem, Watch window, bo
                   .side_deviation = std::hypot(side_x.deviation, side_y.deviation),
                   .swing = swing.frequency,
                   .swing_share = swing.share,
-                  .enough = enough && error <= window.standard_error * std::abs(drag.mean)};
+                  .enough = enough && error <= window.standard_error * std::abs(drag.mean),
+                  .mass_defect = record.largest_mass_defect()};
   field.last.iteration = state.window.steps;
   field.average.drag_deviation = drag.deviation;
   return field;

@@ -131,7 +131,7 @@ FreeFlight::FreeFlight(FlightProblem problem)
       row_(problem_.air.flow.air.speed() / fastest(problem_) / least_rows_in(problem_.air.flow)),
       cloth_(flying_cloth(mesh_, problem_)),
       stepper_(AdaptiveStepper::Step::renewed, problem_.cloth.step_fraction, row_, team_),
-      air_(std::make_unique<CoupledFlow>(problem_.air, mesh_)) {
+      air_(std::make_unique<CoupledFlow>(problem_.air, mesh_, &team_)) {
   for (const double m : mesh_.mass) mass_ += m;
   const double diameter = std::sqrt(mouth_area(air_->cells(), problem_.shape) * 4 / std::numbers::pi);
   follow_ = follow_rate * fastest(problem_) / diameter;
@@ -301,7 +301,7 @@ FreeFlightRow FreeFlight::advance(FreeFlightState& state) {
   row.line_force = (m / length) * (v[payload_] - v_before[payload_]) - m * around.on_mass - around.force;
   row.step = length, row.courant = taken.flow.courant;
   row.residual_traction = taken.residual_traction;
-  row.momentum_gap = norm(taken.flow.momentum_gap);
+  row.momentum_gap = norm(taken.flow.momentum_gap), row.mass_defect = taken.flow.mass_defect;
   // A canopy that has just opened may still grow.
   if (problem_.from) state.mouth_at_start = std::max(state.mouth_at_start, row.mouth_area);
   if (row.mouth_area >= collapsed_share * state.mouth_at_start)

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "ripstop/core/checked_int.h"
+#include "ripstop/fsi/in_parts.h"
 #include "ripstop/fsi/lattice.h"
 
 namespace ripstop::inline fsi {
@@ -145,25 +146,57 @@ class Boxes {
   std::vector<Sample> sorted_;
 };
 
-double width_at(Vec3 point, const FlowGrid& grid) {
-  const Vec3 h = grid.spacing(point);
-  return std::max({h.x, h.y, h.z});
-}
+/// Largest component of FlowGrid::spacing(), from a table: graded edges contain powers.
+class Widths {
+ public:
+  explicit Widths(const FlowGrid& grid)
+      : edges_{grid.edges(0), grid.edges(1), grid.edges(2)}, everywhere_(largest(grid.spacing())) {
+    if (!grid.uniform()) everywhere_ = 0;
+  }
+
+  double at(Vec3 point) const {
+    if (everywhere_ > 0) return everywhere_;
+    return largest({along(0, point.x), along(1, point.y), along(2, point.z)});
+  }
+
+ private:
+  static double largest(Vec3 h) { return std::max({h.x, h.y, h.z}); }
+  double along(int axis, double x) const {
+    const std::vector<double>& edges = edges_[axis];
+    const auto inner = edges.end() - 1;  // points beyond the box are in its last cells
+    const auto above = std::upper_bound(edges.begin() + 1, inner, x);
+    return *above - *(above - 1);
+  }
+
+  std::array<std::vector<double>, 3> edges_;
+  double everywhere_;  // 0: not the same
+};
 
 // Between layers closer than the width of a cell the grid has no separate air: the drop of such a face is that of a
 // closed pocket, or of all layers together, and the pressure on the side of that pocket is meaningless.
-void find_folds(std::vector<Sample>& samples, const FlowGrid& grid, double box) {
+void find_folds(std::vector<Sample>& samples, const Widths& widths, double box, ThreadTeam* team) {
   const Boxes all(samples, box);
-  for (Sample& sample : samples) {
-    const double width = width_at(sample.point, grid);
+  each_in_parts(team, samples.size(), [&](std::size_t n) {
+    Sample& sample = samples[n];
+    const double width = widths.at(sample.point);
     all.near(sample.point, width, [&](const Sample& s) {
       const Vec3 d = s.point - sample.point;
       if (!(dot(s.outward, sample.outward) < 0) || !(dot(d, d) < width * width)) return;
       sample.folded = true;
       (dot(d, sample.outward) > 0 ? sample.outside : sample.inside).reset();
     });
-  }
+  });
 }
+
+/// How far the faces about a cell of cloth reach.
+struct Reaches {
+  Reaches(const Patchwork& cloth, const Widths& widths, double longest)
+      : of_cell(cloth.centre.size()), farthest(longest) {
+    for (std::size_t c = 0; c < of_cell.size(); ++c) of_cell[c] = reach * widths.at(cloth.centre[c]);
+  }
+  std::vector<double> of_cell;  // [m]
+  double farthest;              // the largest one [m]
+};
 
 enum class Side { same, either };
 
@@ -198,53 +231,60 @@ bool plane_through(const Boxes& samples, Vec3 centre, Vec3 normal, double radius
   return true;
 }
 
-std::vector<double> pressures(const std::vector<Sample>& samples, const FlowGrid& grid,
-                              const Patchwork& cloth, double box) {
+std::vector<double> pressures(const std::vector<Sample>& samples, const Reaches& reaches,
+                              const Patchwork& cloth, double box, ThreadTeam* team) {
   std::vector<double> result(cloth.area.size(), 0.0);
   if (samples.empty()) return result;
   std::vector<Sample> believed;
   for (const Sample& s : samples)
     if (!s.folded) believed.push_back(s);
   const Boxes boxes(believed.empty() ? samples : believed, box);
-  for (std::size_t c = 0; c < result.size(); ++c) {
+  each_in_parts(team, result.size(), [&](std::size_t c) {
     const double area = norm(cloth.area[c]);
-    if (!(area > 0)) continue;
+    if (!(area > 0)) return;
     // Cloth that no face represents, at a seam or in a fold smaller than the cells, takes the nearest value.
-    double radius = reach * width_at(cloth.centre[c], grid);
-    const double farthest = norm(grid.size);
+    double radius = reaches.of_cell[c];
     Side side = Side::same;
     while (!plane_through(boxes, cloth.centre[c], cloth.area[c] / area, radius, side, result[c]) &&
-           radius < farthest) {
+           radius < reaches.farthest) {
       radius *= 1.5;
       side = Side::either;
     }
-  }
+  });
   return result;
 }
 
-// Mean of the pressure on one side of the cloth about a point, from the nearest values of the grid.
-double side_at(const Boxes& samples, Vec3 centre, double radius, double farthest,
-               std::optional<double> Sample::*side) {
+/// A weighted mean of values.
+struct Mean {
   double weights = 0, sum = 0;
-  for (; !(weights > 0) && radius < farthest; radius *= 1.5) {
+  bool known() const { return weights > 0; }
+  double value() const { return known() ? sum / weights : 0; }
+};
+
+// Difference of the mean pressures on both sides of the cloth about a point, each from the nearest values of the grid.
+double difference_at(const Boxes& samples, Vec3 centre, double radius, double farthest) {
+  Mean inner, outer;
+  for (; !(inner.known() && outer.known()) && radius < farthest; radius *= 1.5) {
+    const bool seeks_inner = !inner.known(), seeks_outer = !outer.known();
     samples.near(centre, radius, [&](const Sample& s) {
       const Vec3 d = (s.point - centre) / radius;
       const double inside = 1 - dot(d, d);
-      if (inside <= 0 || !(s.*side)) return;
+      if (inside <= 0) return;
       const double w = s.area * inside * inside;
-      weights += w, sum += w * *(s.*side);
+      if (seeks_inner && s.inside) inner.weights += w, inner.sum += w * *s.inside;
+      if (seeks_outer && s.outside) outer.weights += w, outer.sum += w * *s.outside;
     });
   }
-  return weights > 0 ? sum / weights : 0;
+  return inner.value() - outer.value();
 }
 
 // The air in a pleat is connected to that at its mouth, however narrow it is: cloth among folds takes the difference
 // of the pressures of the grid on its two sides nearby. Elsewhere `pressure` is unchanged.
-void press_into_folds(const Boxes& samples, const FlowGrid& grid, const Patchwork& cloth,
-                      std::vector<double>& pressure) {
-  const double farthest = norm(grid.size);
-  for (std::size_t c = 0; c < pressure.size(); ++c) {
-    const double radius = reach * width_at(cloth.centre[c], grid);
+void press_into_folds(const Boxes& samples, const Reaches& reaches, const Patchwork& cloth,
+                      std::vector<double>& pressure, ThreadTeam* team) {
+  const double farthest = reaches.farthest;
+  each_in_parts(team, pressure.size(), [&](std::size_t c) {
+    const double radius = reaches.of_cell[c];
     double all = 0, folded = 0;
     if (norm(cloth.area[c]) > 0)
       samples.near(cloth.centre[c], radius, [&](const Sample& s) {
@@ -252,17 +292,16 @@ void press_into_folds(const Boxes& samples, const FlowGrid& grid, const Patchwor
         const double w = s.area * std::pow(std::max(1 - dot(d, d), 0.0), 2);
         all += w, folded += s.folded ? w : 0;
       });
-    if (!(folded > 0)) continue;
-    const double difference = side_at(samples, cloth.centre[c], radius, farthest, &Sample::inside) -
-                              side_at(samples, cloth.centre[c], radius, farthest, &Sample::outside);
+    if (!(folded > 0)) return;
+    const double difference = difference_at(samples, cloth.centre[c], radius, farthest);
     pressure[c] += folded / all * (difference - pressure[c]);
-  }
+  });
 }
 
 // Force of the air beyond that of the pressures, where there are folds: a traction of the cloth nearby, so that
 // force that the air exerts on a part of the canopy stays there.
 std::vector<Vec3> fold_tractions(const std::vector<SheetLoad>& loads, const std::vector<Sample>& samples,
-                                 const FlowGrid& grid, const Patchwork& cloth,
+                                 const Widths& widths, const Patchwork& cloth,
                                  const std::vector<double>& pressure) {
   struct Sum {
     Vec3 force;                            // that is left [N]
@@ -274,7 +313,7 @@ std::vector<Vec3> fold_tractions(const std::vector<SheetLoad>& loads, const std:
   for (const Sample& s : samples) places.push_back(s.point);
   for (std::size_t c = 0; c < result.size(); ++c)
     if (norm(cloth.area[c]) > 0) places.push_back(cloth.centre[c]);
-  Lattice<Sum> lattice(places, reach * width_at(cloth.middle, grid));
+  Lattice<Sum> lattice(places, reach * widths.at(cloth.middle));
   for (const SheetLoad& load : loads)
     lattice.about(load.point, [&](Sum& sum, double share) { sum.force += share * load.force; });
   for (const Sample& s : samples)
@@ -342,16 +381,18 @@ Wrench wrench_of(const ClothLoad& load, const std::vector<Cell>& cells, const st
 
 ClothLoad load_of_flow(const std::vector<SheetLoad>& loads, const FlowGrid& grid,
                        const std::vector<Triangle>& surface, const std::vector<Cell>& cells,
-                       const std::vector<Vec3>& x, Folds folds) {
+                       const std::vector<Vec3>& x, Folds folds, ThreadTeam* team) {
   if (!std::all_of(x.begin(), x.end(), is_finite)) throw Error(ExitCode::diverged, cloth_too_far());
   const Patchwork cloth(cells, x);
   std::vector<Sample> samples = samples_of(loads, surface);
-  const double box = samples.empty() ? 1 : 0.5 * reach * width_at(samples.front().point, grid);
-  find_folds(samples, grid, box);
-  ClothLoad load{pressures(samples, grid, cloth, box), {}, {}};
+  const Widths widths(grid);
+  const double box = samples.empty() ? 1 : 0.5 * reach * widths.at(samples.front().point);
+  find_folds(samples, widths, box, team);
+  const Reaches reaches(cloth, widths, norm(grid.size));
+  ClothLoad load{pressures(samples, reaches, cloth, box, team), {}, {}};
   if (folds == Folds::filled && !samples.empty()) {
-    press_into_folds(Boxes(samples, box), grid, cloth, load.pressure);
-    load.of_folds = fold_tractions(loads, samples, grid, cloth, load.pressure);
+    press_into_folds(Boxes(samples, box), reaches, cloth, load.pressure, team);
+    load.of_folds = fold_tractions(loads, samples, widths, cloth, load.pressure);
   }
   const Wrench air = wrench_of(loads), plain = wrench_of(load, cells, x);
   const Vec3 force = air.force - plain.force;

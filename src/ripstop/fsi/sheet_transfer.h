@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "ripstop/core/thread_team.h"
 #include "ripstop/core/vec3.h"
 #include "ripstop/flow/flow.h"
 #include "ripstop/mesh/mesh.h"
@@ -40,10 +41,11 @@ Wrench wrench_of(const ClothLoad& load, const std::vector<Cell>& cells, const st
 /// in folds narrower than the flow's cells takes the pressure of open cloth nearby with the same orientation; with
 /// Folds::filled the difference of the pressures on its two sides nearby, as a pleat is open to the air at its mouth,
 /// and the remaining force of the air on it is applied in its neighbourhood. `surface` is surface_of(cells,
-/// positions), the sheet of the loads.
+/// positions), the sheet of the loads. `team` shares the work; the load does not depend on it.
 ClothLoad load_of_flow(const std::vector<SheetLoad>& loads, const FlowGrid& grid,
                        const std::vector<Triangle>& surface, const std::vector<Cell>& cells,
-                       const std::vector<Vec3>& positions, Folds folds = Folds::few);
+                       const std::vector<Vec3>& positions, Folds folds = Folds::few,
+                       ThreadTeam* team = nullptr);
 
 /// On every node, a quarter of the load of each cell that it is a corner of [N].
 std::vector<Vec3> node_forces(const ClothLoad& load, const std::vector<Cell>& cells,

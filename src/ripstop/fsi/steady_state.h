@@ -21,6 +21,7 @@ struct WindowAverage {
   double side_deviation = 0;                  // root mean square of the side force about its mean [N]
   double swing = 0, swing_share = 0;  // strongest frequency of the side force [1/s], its part of the power
   bool enough = false;                // the standard error meets the tolerance
+  double mass_defect = 0;             // largest of a step after the start-up, FlowStep::mass_defect
 };
 template <Of<WindowAverage> T, class Visit>
 void each_member(T& w, Visit&& visit) {
@@ -36,6 +37,7 @@ void each_member(T& w, Visit&& visit) {
   visit("swing_hz", w.swing);
   visit("swing_share", w.swing_share);
   visit("enough", w.enough);
+  visit("mass_defect", w.mass_defect);
 }
 
 /// Everything on which the next iteration depends, except the memory of the flow engine. Part of a

@@ -13,6 +13,7 @@
 #include "ripstop/core/least_squares.h"
 #include "ripstop/core/units.h"
 #include "ripstop/material/copies.h"
+#include "ripstop/material/strength.h"
 
 namespace ripstop::inline material {
 namespace {
@@ -372,6 +373,13 @@ std::vector<std::string> material_warnings(const Material& material, double larg
         if (m.tested_strain > 0 && largest_strain > m.tested_strain)
           list.push_back(fmt::format("{}: strain {:.3g} exceeds the tested {:.3g}; the law is extrapolated",
                                      m.name, largest_strain, m.tested_strain));
+        if (const std::optional<double> specific = specific_strength(m);
+            specific && *specific > strongest_fibre)
+          list.push_back(
+              fmt::format("{}: its strength ({}) is {:.3g} N/tex of the mass that carries it; the strongest "
+                          "fibre has {:.3g} "
+                          "N/tex: check the units of break load and mass, or give a break load",
+                          m.name, strength_of(m).from, *specific / 1e6, strongest_fibre / 1e6));
         return list;
       },
       material);

@@ -48,8 +48,8 @@ MaterialFit fit_material(const Bench& bench);
 /// As a material keeps them: no longer than its file takes.
 std::string joined_warnings(const std::vector<std::string>& warnings);
 
-/// Warnings of a run that reaches `largest_strain` in this material: those of the fit, and a strain beyond
-/// the tests.
+/// Warnings of a run that reaches `largest_strain` in this material: those of the fit, a strain beyond the tests, and a
+/// strength that no fibre has.
 std::vector<std::string> material_warnings(const Material& material, double largest_strain);
 
 }  // namespace ripstop::inline material

@@ -71,7 +71,8 @@ double cfm(const PressureDrop& law) {
 
 PressureDrop law_of_cfm(double flow) {
   if (!(flow > 0) || !(flow < 1e4))
-    throw Error(ExitCode::bad_data, fmt::format("{} CFM/ft2 is outside the range of cloth", flow));
+    throw Error(ExitCode::bad_data,
+                fmt::format("{} CFM/ft2 is outside the range of cloth, above 0 and below 10000", flow));
   return {half_inch_of_water / (flow * cfm_per_square_foot), 0};
 }
 

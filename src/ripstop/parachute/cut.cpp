@@ -202,7 +202,7 @@ Bill bill_of(const CutPattern& pattern, const Design& design, const PartMaterial
   if (design.riser.length_m > 0)
     add_length({"riser", 1, design.riser.length_m}, materials.riser.name, 2 * allowances.line_loop,
                materials.riser.linear_density_kg_m, BillPart::riser);
-  for (BillRow& row : bill.rows) row.cut_each = row.cut / row.count, bill.mass += row.mass;
+  for (BillRow& row : bill.rows) bill.mass += row.mass;
   bill.packed_volume = bill.mass / packing_density;
   return bill;
 }

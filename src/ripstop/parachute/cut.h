@@ -81,7 +81,8 @@ struct BillRow {
   bool is_cloth = false;
   double mass = 0;  // as cut [kg]
   BillPart kind = BillPart::cloth;
-  double cut_each = 0;  // `cut` of one piece
+
+  double cut_each() const { return cut / count; }  // of one piece
 };
 struct Bill {
   std::vector<BillRow> rows;

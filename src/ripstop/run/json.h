@@ -13,6 +13,7 @@
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/members.h"
+#include "ripstop/core/reasons.h"
 #include "ripstop/core/vec3.h"
 
 namespace ripstop::inline run::detail {
@@ -82,7 +83,8 @@ T from_json_text(const std::string& text, const char* what) {
   try {
     return nlohmann::json::parse(text).get<T>();
   } catch (const nlohmann::json::exception& error) {
-    throw Error(ExitCode::bad_data, fmt::format("not {}: {}", what, error.what()));
+    throw Error(ExitCode::bad_data, fmt::format("not {}: {}; the file is damaged or of another version", what,
+                                                json_reason(error)));
   }
 }
 
@@ -104,7 +106,8 @@ T from_cbor(const std::string& bytes, int format, const char* what) {
                   fmt::format("{} of a different version of Ripstop; start again with --fresh", what));
     return j.get<T>();
   } catch (const nlohmann::json::exception& error) {
-    throw Error(ExitCode::bad_data, fmt::format("not {}: {}", what, error.what()));
+    throw Error(ExitCode::bad_data, fmt::format("not {}: {}; the file is damaged or of another version", what,
+                                                json_reason(error)));
   }
 }
 

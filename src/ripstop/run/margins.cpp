@@ -5,10 +5,27 @@
 #include <algorithm>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #include "ripstop/core/words.h"
 
 namespace ripstop::inline run {
+
+namespace {
+
+/// Without a tape a hem of the cloth carries the load of one line [N]; listed after the cloth.
+void add_hem(double line_load, const MarginFactors& factors, const Fabric& cloth, Margins& margins) {
+  Margin hem = margins_of(edge_loads(line_load, nullptr), factors, cloth, nullptr, {}, {}).members.front();
+  hem.member = "hem";
+  margins.members.insert(margins.members.begin() + 1, std::move(hem));
+}
+
+void take_weakest(Margins& margins) {
+  const Margin* least = weakest(margins);
+  margins.weakest = least ? least->member : "";
+}
+
+}  // namespace
 
 Margins case_margins(const Settings& resolved, const CanopyMesh& mesh,
                      const std::vector<double>& spring_tensions, const StressPeak& stress,
@@ -43,35 +60,38 @@ Margins case_margins(const Settings& resolved, const CanopyMesh& mesh,
     loads.others.push_back(
         {"reefing line " + std::to_string(i + 1), reefing_tensions[i], resolved.reefing_lines()[i]});
   const std::optional<Tape>& tape = resolved.materials().tape;
-  return margins_of(loads, resolved.margins(), resolved.materials().canopy, tape ? &*tape : nullptr,
-                    resolved.materials().line, riser, resolved.hardware());
+  const Fabric& cloth = resolved.materials().canopy;
+  Margins margins = margins_of(loads, resolved.margins(), cloth, tape ? &*tape : nullptr,
+                               resolved.materials().line, riser, resolved.hardware());
+  if (!tape && !loads.lines.empty())
+    add_hem(*std::max_element(loads.lines.begin(), loads.lines.end()), resolved.margins(), cloth, margins);
+  take_weakest(margins);
+  return margins;
 }
 
-Margins load_margins(const Settings& resolved, double load) {
+Margins load_margins(const Settings& resolved, double load, double snatch) {
   const PartMaterials& materials = resolved.materials();
   return load_margins(resolved.parachute(), resolved.margins(), materials.canopy,
                       materials.tape ? &*materials.tape : nullptr, load, materials.line, materials.riser,
-                      resolved.hardware());
+                      resolved.hardware(), snatch);
 }
 
 Margins load_margins(const Design& design, const MarginFactors& factors, const Fabric& cloth,
                      const Tape* tape, double load, const Line& line, const Line& riser,
-                     const HardwareParts& hardware) {
-  const double line_load = experience(design).line_load_factor * load / design.lines.count;
-  MemberLoads loads = edge_loads(line_load, tape);
-  loads.lines = {line_load};
-  if (design.riser.length_m > 0) loads.riser = load;
-  loads.hardware = load;
+                     const HardwareParts& hardware, double snatch) {
+  const double share = experience(design).line_load_factor / design.lines.count;
+  const double line_load = share * load, largest = std::max(load, snatch);
+  MemberLoads loads;
+  if (tape) loads = edge_loads(line_load, tape);
+  loads.lines = {share * largest};
+  if (design.riser.length_m > 0) loads.riser = largest;
+  loads.hardware = largest;
   Margins margins = margins_of(loads, factors, cloth, tape, line, riser, hardware);
-  if (tape)
-    std::erase_if(margins.members,
-                  [](const Margin& m) { return m.member == "cloth"; });  // its load is not known
-  for (Margin& m : margins.members) {
-    if (m.member == "cloth") m.member = "hem";
+  if (!tape) add_hem(line_load, factors, cloth, margins);
+  margins.members.erase(margins.members.begin());  // the cloth, whose load is not known
+  for (Margin& m : margins.members)
     if (m.member == "line 1") m.member = "line";
-  }
-  const Margin* least = weakest(margins);
-  margins.weakest = least ? least->member : "";
+  take_weakest(margins);
   return margins;
 }
 

@@ -44,10 +44,11 @@ Margins case_margins(const Settings& resolved, const CanopyMesh& mesh,
 
 /// Of lines, tape or hem, riser and hardware under an opening load [N]. A line carries an equal share of it times the
 /// family's line_load_factor, and the tape the load of one line, as in tape_for(); without one (null) a hem of the cloth.
+/// Lines, riser and hardware carry a larger `snatch` load in its place; the edges of the packed canopy do not.
 Margins load_margins(const Design& design, const MarginFactors& factors, const Fabric& cloth,
                      const Tape* tape, double load, const Line& line, const Line& riser,
-                     const HardwareParts& hardware = {});
-Margins load_margins(const Settings& resolved, double load);
+                     const HardwareParts& hardware = {}, double snatch = 0);
+Margins load_margins(const Settings& resolved, double load, double snatch = 0);
 
 /// One row a kind of member: of the lines the weakest.
 std::vector<Margin> weakest_of_kinds(const Margins& margins);

@@ -15,6 +15,7 @@
 #include "ripstop/core/file.h"
 #include "ripstop/core/hash.h"
 #include "ripstop/core/process.h"
+#include "ripstop/core/reasons.h"
 #include "ripstop/core/toml/document.h"
 #include "ripstop/core/toml/problem.h"
 #include "ripstop/core/toml/read.h"
@@ -58,7 +59,7 @@ Json parsed(const std::string& text) {
   try {
     return Json::parse(text);
   } catch (const Json::exception& error) {
-    throw Error(ExitCode::usage, fmt::format("not JSON: {}", error.what()));
+    throw Error(ExitCode::usage, fmt::format("not JSON: {}", json_reason(error)));
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
+#include "ripstop/core/reasons.h"
 #include "ripstop/core/toml/read.h"
 #include "ripstop/output/csv.h"
 #include "ripstop/studio/actions.h"
@@ -126,7 +127,7 @@ std::string Actions::fit(const std::string& request) const {
   } catch (const Json::exception& error) {
     throw Error(ExitCode::usage, fmt::format("no request of a fit: {}", error.what()));
   } catch (const fs::filesystem_error& error) {
-    throw Error(ExitCode::io, error.what());
+    throw Error(ExitCode::io, file_reason(error));
   }
 }
 

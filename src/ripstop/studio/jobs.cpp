@@ -11,6 +11,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/process.h"
+#include "ripstop/core/reasons.h"
 
 namespace ripstop::inline studio {
 namespace {
@@ -75,7 +76,7 @@ Job job_from_json(const std::string& text) {
     return {j.at("name"),      j.at("command"),         j.at("case"),
             j.at("arguments"), state_of(j.at("state")), j.at("message")};
   } catch (const Json::exception& error) {
-    throw Error(ExitCode::bad_data, fmt::format("no record of a run: {}", error.what()));
+    throw Error(ExitCode::bad_data, fmt::format("no record of a run: {}", json_reason(error)));
   }
 }
 

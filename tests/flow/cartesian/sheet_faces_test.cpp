@@ -13,6 +13,7 @@
 
 #include "../../diverges.h"
 #include "even_axis.h"
+#include "ripstop/core/thread_team.h"
 #include "ripstop/flow/bodies.h"
 
 namespace ripstop {
@@ -182,6 +183,24 @@ TEST(SheetFaces, OfASheetInAGridAsManyTimesAsLargeAreTheSame) {
       ASSERT_NEAR(norm(b.across - a.across), 0, 1e-12) << n;
       ASSERT_NEAR(norm(b.outward - a.outward), 0, 1e-12) << n;
     }
+  }
+}
+
+TEST(SheetFaces, DoNotDependOnTheNumberOfThreads) {
+  std::vector<Triangle> surface = rigid_disk_gap_band({0.013, -0.007, 2.031});
+  for (const Triangle& t : hemispherical_cup(0.61, {0.1, 0.05, 2})) surface.push_back(t);
+  const Axis x = even_axis(-1, 2, 40), z = even_axis(0, 4, 60);
+  const std::vector<SheetFace> alone = sheet_faces(x, x, z, surface);
+  ASSERT_GT(alone.size(), 500u);
+  const auto same = [](const SheetFace& a, const SheetFace& b) {
+    return std::tie(a.axis, a.i, a.j, a.k, a.triangle, a.against, a.hem, a.area, a.cover) ==
+               std::tie(b.axis, b.i, b.j, b.k, b.triangle, b.against, b.hem, b.area, b.cover) &&
+           a.point == b.point && a.outward == b.outward && a.normal == b.normal && a.across == b.across;
+  };
+  for (const int threads : {1, 2, 5}) {
+    ThreadTeam team(threads);
+    const std::vector<SheetFace> shared = sheet_faces(x, x, z, surface, &team);
+    EXPECT_TRUE(std::equal(alone.begin(), alone.end(), shared.begin(), shared.end(), same)) << threads;
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -9,6 +10,7 @@
 
 #include "even_axis.h"
 #include "ripstop/core/error.h"
+#include "ripstop/core/thread_team.h"
 #include "ripstop/flow/bodies.h"
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/cartesian/state.h"
@@ -187,6 +189,17 @@ TEST(Sheet, TheDistanceToAPlaneIsThatStraightToIt) {
       for (int i = 0; i < 4; ++i)
         EXPECT_NEAR(distance[layout.at(i, j, k)], std::max(0.1, std::abs(0.25 * (k + 0.5) - 1.53)), 1e-12)
             << k;
+}
+
+TEST(Sheet, DistancesDoNotDependOnTheNumberOfThreads) {
+  const Axis x = even_axis(-1, 2, 24), z = even_axis(0, 4, 31);
+  const cartesian::SheetRows rows(x, x, z,
+                                  {sheet_body(rigid_disk_gap_band({0.013, -0.007, 2.031}), {40, 2})});
+  const cartesian::Layout layout(24, 24, 31);
+  ThreadTeam team(3);
+  const cartesian::Array<double> alone = rows.distance(x, x, z, layout),
+                                 shared = rows.distance(x, x, z, layout, &team);
+  EXPECT_TRUE(std::equal(alone.begin(), alone.end(), shared.begin(), shared.end()));
 }
 
 TEST(Sheet, LoadsForceOnTheFluidAndMomentumDeficitAreOne) {

@@ -273,8 +273,8 @@ TEST_F(Export, EveryNumberIsThatOfTheRunOrOfItsDesign) {
   EXPECT_DOUBLE_EQ(exported(run, 50).lag, 10 * p.nominal_diameter / 50);
   const double slow = 10.0 / 8 * 4 * std::pow(5 / 0.3048, 0.15);
   EXPECT_DOUBLE_EQ(exported(run, 5).lag, slow * p.nominal_diameter / 5);
-  EXPECT_EQ(exported(run, 5).lag_from,
-            std::string("filling distance 7.61 D0 at 5 m/s: ") + known_filling("disk-gap-band").source);
+  EXPECT_EQ(exported(run, 5).lag_from, std::string("filling distance 7.61 D0 at 5 m/s (given): ") +
+                                           known_filling("disk-gap-band").source);
   EXPECT_EQ(p.mass, run.parachute_mass);
   EXPECT_EQ(p.gores, design.gores);
   EXPECT_EQ(p.line_count, design.lines.count);
@@ -288,6 +288,27 @@ TEST_F(Export, EveryNumberIsThatOfTheRunOrOfItsDesign) {
   EXPECT_NEAR(
       std::numbers::pi / 4 * p.packed_diameter * p.packed_diameter * p.packed_length / p.packed_volume, 1,
       1e-12);
+}
+
+// The speed of a run with a payload is its rate of descent; a parachute is deployed at a higher one.
+TEST_F(Export, ARunWithAPayloadHasTheDeploymentSpeedOfSizeAndStatesIt) {
+  FinishedSteady run = finished_steady(folder_->path / "run");
+  EXPECT_EQ(exported(run).deployment_speed, run.result.speed);
+  EXPECT_FALSE(exported(run).speed_assumed);
+  Case descends = run.resolved.written();
+  descends.payload.mass_kg = 3;
+  run.resolved = resolve(descends), run.result.speed = 5;
+  const ExportedParachute p = exported(run);
+  EXPECT_TRUE(p.speed_assumed);
+  EXPECT_EQ(p.deployment_speed, 20);
+  EXPECT_DOUBLE_EQ(p.lag, exported(run, 20).lag);
+  EXPECT_EQ(exported(run, 12).deployment_speed, 12);
+  for (const std::string& text : {rocketpy_text(p, "apogee"), openrocket_design({{{p, "apogee"}}})})
+    EXPECT_NE(text.find("at 20 m/s (assumed, 20 m/s or three times the rate of descent of 5 m/s"),
+              std::string::npos)
+        << text;
+  run.result.speed = 9;
+  EXPECT_EQ(exported(run).deployment_speed, 27);
 }
 
 TEST_F(Export, WithAFlightHasItsCoefficientInDescentAndStatesSo) {

@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
+#include "ripstop/case/tape.h"
 #include "ripstop/core/error.h"
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/validity.h"
+#include "ripstop/fsi/opening_estimate.h"
 #include "ripstop/run/opening/handbook.h"
 #include "ripstop/run/opening/load.h"
 #include "tests/refusal.h"
@@ -185,16 +188,88 @@ TEST(DesignLoad, AComputedPeakOutsideTheHandbooksRangeIsReportedWithTheReason) {
   EXPECT_FALSE(handbook_disagreement(718, {}, {}));
 }
 
-// The height of a case made by `ripstop size` is where the rate is wanted, by default sea level.
-TEST(DesignLoad, WithoutAHeightTheOpeningIsAboveTheGround) {
+LoadResult load_in(std::optional<double> case_height, std::optional<double> case_density, LoadRequest asked) {
   Case given = flat_circular_case(1.76, 1500, 20);
-  given.flow.density_kg_m3.reset();
-  given.flow.height_m = 0;
+  given.flow.height_m = case_height, given.flow.density_kg_m3 = case_density;
+  return run_load(resolve(checked(given)), asked);
+}
+
+// A default height would make the load of a case at sea level 9 % smaller at 1000 m, without a word.
+TEST(DesignLoad, WithoutAHeightTheAirIsThatOfTheCase) {
   LoadRequest asked = drop();
   asked.height.reset();
-  EXPECT_EQ(run_load(resolve(checked(given)), asked).height, usual_deployment_height);
-  given.flow.height_m = 300;
-  EXPECT_EQ(run_load(resolve(checked(given)), asked).height, 300);
+  const LoadResult sea = load_in(0, {}, asked), hill = load_in(300, {}, asked),
+                   thin = load_in({}, 1.1, asked);
+  EXPECT_EQ(sea.height, 0);
+  EXPECT_EQ(sea.density, standard_air(0).density);
+  EXPECT_EQ(sea.air_source, "flow.height_m = 0 m of the case");
+  EXPECT_TRUE(sea.steady_reached);
+  EXPECT_EQ(hill.height, 300);
+  EXPECT_EQ(thin.density, 1.1);
+  EXPECT_NEAR(thin.height, standard_height(1.1), 1e-9);
+  EXPECT_EQ(thin.air_source, "flow.density_kg_m3 of the case");
+  for (const LoadResult* r : {&sea, &hill, &thin}) {
+    EXPECT_DOUBLE_EQ(r->stages.front().density, r->density);
+    EXPECT_NEAR(r->design_load / r->density, sea.design_load / sea.density, 1e-9 * sea.design_load);
+  }
+}
+
+TEST(DesignLoad, AGivenHeightOrGroundReplacesTheAirOfTheCaseAndStatesSo) {
+  const LoadResult given = load_in({}, 1.1, drop());
+  EXPECT_EQ(given.density, standard_air(300).density);
+  EXPECT_NE(given.air_source.find("in place of the 1.1 kg/m3 of the case"), std::string::npos)
+      << given.air_source;
+  LoadRequest plateau = drop();
+  plateau.height.reset(), plateau.ground = 1500;
+  const LoadResult high = load_in(0, {}, plateau);
+  EXPECT_EQ(high.height, 1500);
+  EXPECT_EQ(high.density, standard_air(1500).density);
+  EXPECT_EQ(load_in({}, 1.1, plateau).density, 1.1) << "a density that is given stays";
+  EXPECT_EQ(load_in(2000, {}, plateau).height, 2000);
+}
+
+// Denser than the standard atmosphere anywhere: all of the flight has that air.
+TEST(DesignLoad, ADensityThatNoHeightHasIsTaken) {
+  LoadRequest asked = drop();
+  asked.height.reset();
+  const LoadResult r = load_in({}, 5, asked);
+  EXPECT_EQ(r.height, lowest_height);
+  EXPECT_DOUBLE_EQ(r.flight.front().density, 5);
+}
+
+TEST(DesignLoad, TheResultHasTheStateAtLineStretch) {
+  LoadRequest asked = drop();
+  asked.path_angle = 40;
+  const auto json = nlohmann::json::parse(to_json(run_load(resolve(sized_canopy(1.76)), asked)));
+  EXPECT_EQ(json.at("speed_m_s"), 20);
+  EXPECT_EQ(json.at("path_angle_deg"), 40);
+  EXPECT_EQ(json.at("height_m"), 300);
+  EXPECT_EQ(json.at("density_kg_m3"), standard_air(300).density);
+  EXPECT_FALSE(json.at("air_from").get<std::string>().empty());
+  EXPECT_EQ(json.at("stages").at(0).at("path_angle_deg"), 40);
+  EXPECT_EQ(json.at("required_load_n"), json.at("design_load_n"));
+}
+
+// `check` chooses the tape, and `inflate` compares with the infinite-mass load; both are that of `load`.
+TEST(DesignLoad, OfTheTapeAndOfAnInflationIsThatOfTheLoadCommand) {
+  for (const std::optional<double> coefficient :
+       {std::optional<double>(), std::optional(0.64), std::optional(0.9)}) {
+    Case given = flat_circular_case(1.76, 1500, 20);
+    given.inflation.drag_coefficient = coefficient;
+    given.parachute.tape.material.reset();
+    const Settings resolved = resolve(checked(given));
+    LoadRequest asked = drop();
+    asked.height.reset();
+    const LoadResult load = run_load(resolved, asked);
+    const auto edge = std::find_if(load.margins->members.begin(), load.margins->members.end(),
+                                   [](const Margin& m) { return m.member == "hem" || m.member == "tape"; });
+    ASSERT_NE(edge, load.margins->members.end());
+    EXPECT_NEAR(tape_material(checked(given)).used, edge->used.value(), 1e-9);
+    const double q = 0.5 * load.density * 400;
+    const OpeningEstimate estimate =
+        opening_estimate(resolved.parachute(), load.drag_coefficient * load.reference_area * q, q);
+    EXPECT_NEAR(estimate.load.value(), load.design_load, 1e-9 * load.design_load);
+  }
 }
 
 TEST(DesignLoad, TheDragCoefficientOfTheCaseIsTaken) {

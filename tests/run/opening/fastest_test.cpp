@@ -12,6 +12,7 @@
 
 #include "ripstop/core/error.h"
 #include "ripstop/run/margins.h"
+#include "ripstop/run/opening/snatch.h"
 #include "tests/refusal.h"
 
 namespace ripstop {
@@ -144,6 +145,30 @@ TEST(Snatch, ChangesWithLengthAndStiffnessOfAShockCord) {
   EXPECT_GT(run_load(flat_circular(), without).snatch->load, 2 * snatch.load);
 }
 
+TEST(Snatch, HasTheRatioOfTheBreakingLoadsOfLinesAndRiserAndWarnsBelowOne) {
+  LoadRequest asked = request();
+  asked.speed = 30, asked.snatch_speed = 8;
+  const LoadResult without = run_load(flat_circular(), asked);
+  EXPECT_NEAR(*without.snatch->line_margin, 3180 / without.snatch->line_load, 1e-9);
+  EXPECT_FALSE(without.snatch->riser_margin);
+  const LoadResult with = run_load(flat_circular({{"parachute.riser.length_m", "1"}}), asked);
+  EXPECT_NEAR(*with.snatch->riser_margin, 3180 / with.snatch->load, 1e-9);
+  const auto breaks = [](const LoadResult& r, const char* part) {
+    return std::any_of(r.warnings.begin(), r.warnings.end(), [&](const std::string& text) {
+      return text.find(fmt::format("the snatch load breaks {}", part)) == 0;
+    });
+  };
+  EXPECT_EQ(breaks(with, "the riser"), *with.snatch->riser_margin < 1);
+  asked.snatch_speed = 30;
+  const LoadResult fast = run_load(flat_circular({{"parachute.riser.length_m", "1"}}), asked);
+  EXPECT_LT(*fast.snatch->riser_margin, 1);
+  EXPECT_TRUE(breaks(fast, "the riser"));
+  asked.snatch_speed = 1;
+  const LoadResult slow = run_load(flat_circular({{"parachute.riser.length_m", "1"}}), asked);
+  EXPECT_GT(*slow.snatch->riser_margin, 1);
+  EXPECT_FALSE(breaks(slow, "the riser") || breaks(slow, "a line"));
+}
+
 TEST(Snatch, OfTheDeploymentOfTheCaseIsComputedAtTheSpeedOfTheRequest) {
   LoadRequest asked = request();
   asked.speed = 30;
@@ -153,6 +178,63 @@ TEST(Snatch, OfTheDeploymentOfTheCaseIsComputedAtTheSpeedOfTheRequest) {
   EXPECT_EQ(snatch.from, "[deployment] of the case");
   EXPECT_NEAR(snatch.speed_difference, 12, 3);
   EXPECT_GT(snatch.load, 0);
+}
+
+double of_member(const Margins& margins, const std::string& member) {
+  const auto same = [&](const Margin& m) { return m.member == member; };
+  return std::find_if(margins.members.begin(), margins.members.end(), same)->load;
+}
+
+// Both are snatch loads, of other speeds and by other models: a part has to carry the larger one.
+TEST(Snatch, OfTwoModelsIsTheLargerOneWithAWarningOfBoth) {
+  const Settings deployed = flat_circular({{"deployment.relative_speed_m_s", "3"}});
+  LoadRequest asked = request();
+  asked.speed = 30, asked.snatch_speed = 20;
+  const LoadResult r = run_load(deployed, asked);
+  ASSERT_TRUE(r.snatch && r.snatch->other_load);
+  EXPECT_NE(r.snatch->model, deployment_model);
+  EXPECT_GT(*r.snatch->other_speed_difference, 3);
+  ASSERT_GT(r.snatch->load, *r.snatch->other_load);
+  LoadRequest alone = asked;
+  alone.snatch_speed.reset();
+  const LoadResult of_case = run_load(deployed, alone);
+  EXPECT_EQ(of_case.snatch->load, *r.snatch->other_load);
+  EXPECT_EQ(of_case.snatch->model, deployment_model);
+  EXPECT_EQ(r.required_load, std::max(r.snatch->load, r.design_load));
+  EXPECT_EQ(r.hardware.rated, r.required_load);
+  ASSERT_GT(r.snatch->load, r.design_load);
+  for (const Margin& m : r.margins->members)  // the edges of the packed canopy do not carry the snatch load
+    EXPECT_NEAR(m.load,
+                of_member(load_margins(deployed, m.member == "tape" || m.member == "hem" ? r.design_load
+                                                                                         : r.snatch->load),
+                          m.member),
+                1e-9 * m.load)
+        << m.member;
+  const auto two = [](const LoadResult& result) {
+    return std::count_if(result.warnings.begin(), result.warnings.end(),
+                         [](const std::string& text) { return text.starts_with("two snatch loads"); });
+  };
+  EXPECT_EQ(two(r), 1);
+  EXPECT_EQ(two(of_case), 0);
+}
+
+TEST(Fastest, CarriesTheSnatchLoadToo) {
+  const auto fastest = [](const std::vector<Setting>& more, std::optional<double> difference) {
+    LoadRequest asked = request();
+    asked.snatch_speed = difference;
+    return run_fastest(flat_circular(more), asked);
+  };
+  const std::vector<Setting> link = {{"hardware.link.rated_load_n", "1500"}};
+  const FastestResult without = fastest(link, {}), slow = fastest(link, 1), fast = fastest(link, 30);
+  EXPECT_FALSE(without.snatch);
+  EXPECT_NE(without.advice.find("the snatch load and the stress"), std::string::npos) << without.advice;
+  ASSERT_LT(slow.snatch->load, 1500);
+  EXPECT_EQ(slow.design().speed, without.design().speed) << "the opening has the larger load";
+  EXPECT_EQ(slow.advice.find("snatch"), std::string::npos) << slow.advice;
+  ASSERT_GT(fast.snatch->load, 1500);
+  EXPECT_FALSE(fast.design().speed);
+  EXPECT_NE(fast.advice.find("no speed: the link does not carry the snatch load"), std::string::npos)
+      << fast.advice;
 }
 
 }  // namespace

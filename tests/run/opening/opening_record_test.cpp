@@ -108,8 +108,11 @@ TEST_F(OpeningRecords, OfAnotherParachuteOrWithoutALoadIsRefused) {
   write({opening_history.columns, {}});
   EXPECT_EQ(refusal(ExitCode::bad_data, given), folder.string() + ": the load history is zero");
   folder = root.path / "nowhere";
-  EXPECT_EQ(refusal(ExitCode::usage, given),
-            folder.string() + ": contains no finished run of ripstop inflate");
+  EXPECT_EQ(
+      refusal(ExitCode::usage, given),
+      folder.string() +
+          ": contains no finished run of ripstop inflate; compute one with: ripstop inflate CASE --out " +
+          folder.string());
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ TEST_F(ReportParts, TheBillHasARowForEveryRowOfTheBill) {
   for (std::size_t i = 0; i < bill.rows.size(); ++i) {
     const BillRow& row = bill.rows[i];
     EXPECT_EQ(table.rows[i],
-              (Words{row.part, row.material, std::to_string(row.count), fmt::format("{:.3f}", row.cut_each),
+              (Words{row.part, row.material, std::to_string(row.count), fmt::format("{:.3f}", row.cut_each()),
                      fmt::format("{:.3f}", row.finished), fmt::format("{:.3f}", row.cut),
                      row.is_cloth ? "m²" : "m", fmt::format("{:.1f}", 1e3 * row.mass)}));
     (row.is_cloth ? cloth : other) = true;

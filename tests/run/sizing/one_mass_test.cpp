@@ -3,15 +3,21 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <set>
 
 #include "ripstop/case/assemble.h"
+#include "ripstop/case/deployment.h"
+#include "ripstop/case/flying.h"
+#include "ripstop/case/opening.h"
 #include "ripstop/case/payload.h"
 #include "ripstop/case/summary.h"
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/parachute/family.h"
 #include "ripstop/parachute/own_mesh.h"
+#include "ripstop/run/descent/descent.h"
 #include "ripstop/run/descent/export.h"
+#include "ripstop/run/flight/flight.h"
 #include "ripstop/run/opening/load.h"
 #include "ripstop/run/sizing/pattern.h"
 #include "ripstop/run/sizing/size.h"
@@ -19,6 +25,10 @@
 
 namespace ripstop {
 namespace {
+
+double mass_of(const Mesh& mesh) {
+  return std::accumulate(mesh.mass.begin(), mesh.mass.end(), 0.0);
+}
 
 void expect_one_mass(const Case& given, const std::string& name) {
   const PatternResult pattern = run_pattern(resolve(given), {}, packed_by_hand);
@@ -32,6 +42,32 @@ void expect_one_mass(const Case& given, const std::string& name) {
   LoadRequest asked;
   asked.payload_mass = 2, asked.speed = 40, asked.drag_coefficient = 0.7, asked.opening_coefficient = 1.5;
   EXPECT_EQ(run_load(resolve(given), asked).parachute_mass, mass) << name;
+  const Settings resolved = resolve(given);
+  SteadyResult steady;
+  steady.converged = true, steady.speed = 20, steady.drag_area = 1,
+  steady.reference_area = nominal_area(given.parachute);
+  const FinishedSteady run = finished_steady(resolved, steady);
+  EXPECT_EQ(exported(run).mass, mass) << name;
+  EXPECT_EQ(run_descent(run, 2, {0}).parachute_mass, mass) << name;
+  EXPECT_NEAR(mass_of(mesh_as_cut(resolved)), mass, 1e-12 * mass) << name;
+}
+
+/// The parachute that moves in a flight and in an opening with a payload, and the one that is deployed.
+void expect_one_flying_mass(Case given, const std::string& name) {
+  if (resolve(given).flow().porosity_model == PorosityModel::paper) return;  // does not fly
+  given.payload.mass_kg = 2, given.bodies.clear();
+  const Settings flight = flight_settings(given);
+  const double mass = parachute_mass(flight);
+  const FlightProblem flown = flight_problem(flight, parachute_mesh(flight).start, {}, 1);
+  EXPECT_NEAR(mass_of(flown.mesh), mass, 1e-12 * mass) << name;
+  given.flight.start = FlightSettings::Start::inflation;
+  given.flow.speed_m_s = 20;
+  const Settings opening = flight_settings(given);
+  const InflationProblem opened = opening_problem(opening, load_source(opening), 1);
+  EXPECT_NEAR(mass_of(opened.mesh) + opened.air->payload->mass - 2, mass, 1e-9 * mass) << name;
+  if (!opening.deployment()) return;
+  const PackedParachute packed = packed_parachute(opening);
+  EXPECT_NEAR(packed.canopy_mass + packed.lines_mass, mass, 1e-12 * mass) << name;
 }
 
 /// S0 and D0 = (4 S0 / pi)^(1/2) of every user of them, and the cloth as cut and as meshed.
@@ -82,6 +118,7 @@ void for_every_example(const Look& look) {
 
 TEST(OneMass, OfEveryExample) {
   for_every_example(expect_one_mass);
+  for_every_example(expect_one_flying_mass);
 }
 
 TEST(OneReference, OfEveryFamily) {

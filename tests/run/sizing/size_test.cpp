@@ -104,7 +104,7 @@ TEST(Size, TapeCarriesTheOpeningLoadAndIsNoneWhereAHemDoes) {
   ASSERT_TRUE(tape);
   EXPECT_EQ(tape->name, heavy.tape_material);
   const double left = tape->break_load_n * 0.8 * 0.95 * 0.95 * 0.95 / 1.5;
-  EXPECT_GE(left, heavy.line_load_factor * heavy.design_load / heavy.line_count);
+  EXPECT_GE(left, heavy.line_load_factor * heavy.largest_load / heavy.line_count);
   EXPECT_GT(heavy.tape_mass, 0);
   EXPECT_NE(
       heavy.case_text.find("material = \"" + heavy.tape_material + "\"  # the lightest tape that carries"),
@@ -152,6 +152,26 @@ TEST(Size, VerifyAdjustsTheDiameterUntilTheRateIsMet) {
   EXPECT_EQ(r.opening.front().highest, r.opening_load);
   const auto stuck = [&](const Settings&, int) { return SteadyResult(); };
   EXPECT_THROW(verify_size(asked, r, stuck), Error);
+}
+
+// The tape for the first size is too weak for the larger one.
+TEST(Size, VerifyChoosesTheMaterialsForTheFinalDiameter) {
+  SizeRequest asked = sized();
+  asked.payload_mass = 22, asked.descent_rate = 6, asked.deployment_speed = 28;
+  SizeResult r = run_size(asked);
+  const std::string tape = r.tape_material;
+  const double coefficient = 0.9 * r.drag_coefficient;
+  verify_size(asked, r, [&](const Settings& resolved, int) {
+    SteadyResult flown;
+    flown.converged = true, flown.drag_coefficient = coefficient;
+    flown.speed =
+        std::sqrt(2 * suspended_weight(resolved, 22) /
+                  (resolved.flow().density_kg_m3 * coefficient * nominal_area(resolved.parachute())));
+    return flown;
+  });
+  EXPECT_NE(r.tape_material, tape);
+  EXPECT_GE(*r.smallest_margin, 0);
+  EXPECT_TRUE(r.warnings.empty());
 }
 
 TEST(Size, ItsReportHasItsNumbersAndEveryMethodsLoad) {
@@ -228,7 +248,8 @@ TEST(Size, TheRateOfTheClothAloneIsTheSlowestThatIsFound) {
   const double alone = std::stod(told.substr(told.find("descends at ") + 12));
   EXPECT_GT(alone, 0.3);
   EXPECT_LT(alone, 2);
-  const SizeRequest above = wish(1e-2, 1.2 * alone, 0);
+  SizeRequest above = wish(1e-2, 1.2 * alone, 0);
+  above.deployment_speed = 10;  // at which a hem suffices: that rate is without a tape
   EXPECT_NEAR(drag_over_weight(above, run_size(above)), 1, 2e-3);
   EXPECT_NE(
       refusal_of([&] { run_size(wish(1e-2, 0.95 * alone, 0)); }, ExitCode::usage).find("without a payload"),
@@ -275,6 +296,24 @@ TEST(Size, ImpossibleInputIsRefused) {
   asked = sized();
   asked.height = 90000;
   EXPECT_NE(refused(asked).find("standard atmosphere"), std::string::npos);
+}
+
+// One question, one answer: the load of the sized parachute at its speed of deployment, by both commands.
+TEST(Size, DesignsForTheLoadThatTheLoadCommandHasForItsFile) {
+  SizeRequest sea, plateau, dense;
+  plateau.height = 1500, dense.density = 1.3;
+  for (SizeRequest asked : {sea, plateau, dense}) {
+    asked.payload_mass = 2.4, asked.descent_rate = 5;
+    const SizeResult found = run_size(asked);
+    LoadRequest load;
+    load.payload_mass = asked.payload_mass, load.speed = found.deployment_speed;
+    const LoadResult loaded = run_load(resolve(parse_case(found.case_text, "the sized case")), load);
+    EXPECT_EQ(loaded.density, found.density);
+    EXPECT_EQ(loaded.height, found.height);
+    EXPECT_EQ(loaded.air_source, found.air_source);
+    EXPECT_NEAR(loaded.design_load, found.design_load, 1e-6 * found.design_load);
+    EXPECT_NEAR(*weakest(*loaded.margins)->used, *weakest(*found.margins)->used, 1e-6);
+  }
 }
 
 }  // namespace

@@ -20,6 +20,7 @@ class LeaningFlow final : public FormulaFlow {
   double longest_step(double) override { return 0.001; }
   FlowStep step(double length) override {
     now_.time += length, now_.length = length, ++now_.step;
+    now_.mass_defect = mass_defect;
     const double q = 0.5 * 1.2 * dot(stream_, stream_) * 3.14159265358979 / 4;
     const double alpha = angle_of_attack({{0, 0, 1}, stream_}) * 3.14159265358979 / 180;
     const double swing = 0.01 * std::sin(40 * now_.time);
@@ -47,6 +48,8 @@ class LeaningFlow final : public FormulaFlow {
     std::istringstream text(read_file(folder / "time"));
     text >> now_.step >> now_.time >> stream_.x >> stream_.y >> stream_.z;
   }
+
+  static inline double mass_defect = 1e-4;  // of every step
 
  private:
   Vec3 stream_;

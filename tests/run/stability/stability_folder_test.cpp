@@ -209,12 +209,44 @@ TEST_F(StabilityFolder, OfIterationsThatDoNotSettleHasTheirMeanAndAWarning) {
   EXPECT_NEAR(result.rows[0].c_t, 0.7, 1e-9);
   EXPECT_FALSE(result.rows[0].c_t_error);
   EXPECT_FALSE(result.rows[0].enough);
-  ASSERT_EQ(result.warnings.size(), 2u);
+  ASSERT_EQ(result.warnings.size(), 3u);
+  EXPECT_EQ(result.warnings[2].find((folder_ / "whole/axis").string() + ": "), 0u) << result.warnings[2];
   EXPECT_NE(result.warnings[1].find("flow cells across the inflated canopy: 8"), std::string::npos)
       << result.warnings[1];
   EXPECT_NE(result.warnings[0].find("0 degrees: the flow did not reach its residual, the row is a mean"),
             std::string::npos)
       << result.warnings[0];
+}
+
+TEST_F(StabilityFolder, ALargeMassDefectIsWarnedOfAndThenNotUsable) {
+  Counter observer;
+  EXPECT_TRUE(result_.usable);
+  EXPECT_EQ(result_.rows[0].mass_defect, 1e-4);
+  for (const auto& [defect, usable] : {std::pair{0.03, true}, std::pair{0.1, false}}) {
+    LeaningFlow::mass_defect = defect;
+    const StabilityResult result =
+        run_stability(given(), {0}, in(usable ? "defect" : "more-defect"), observer);
+    LeaningFlow::mass_defect = 1e-4;
+    EXPECT_EQ(result.usable, usable);
+    const auto told = std::count_if(result.warnings.begin(), result.warnings.end(), [](const auto& text) {
+      return text.find("0 degrees: largest mass defect of the air") == 0;
+    });
+    EXPECT_EQ(told, 1) << defect;
+  }
+}
+
+// The shape is that of the steady run on the axis, and so are its warnings.
+TEST_F(StabilityFolder, CarriesTheWarningsOfTheRunOnTheAxis) {
+  const auto axis = nlohmann::json::parse(read_file(folder_ / "whole/axis/result.json"));
+  const std::string name = (folder_ / "whole/axis").string() + ": ";
+  const auto& all = result_.warnings;
+  int own = 0;
+  for (const auto& text : axis.at("warnings")) {
+    const auto is = [&](const std::string& one) { return one == text || one == name + std::string(text); };
+    EXPECT_EQ(std::count_if(all.begin(), all.end(), is), 1) << text;
+    ++own;
+  }
+  EXPECT_GT(own, 0);
 }
 
 TEST_F(StabilityFolder, RefusesASteadyRunAtAnotherSpeed) {

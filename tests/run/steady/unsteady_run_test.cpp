@@ -9,8 +9,10 @@
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/file.h"
 #include "ripstop/output/csv.h"
+#include "ripstop/run/quality.h"
 #include "ripstop/run/steady/checkpoint.h"
 #include "ripstop/run/steady/steady_folder.h"
+#include "ripstop/run/steady/steady_parts.h"
 #include "ripstop/run/steady/watch_files.h"
 #include "tests/run/steady/formula_flow.h"
 #include "tests/small_case.h"
@@ -35,6 +37,7 @@ class SwingingFlow final : public FormulaFlow {
     for (int n = 0; n < steps; ++n) {
       now_.time = 0.002 * ++now_.step, now_.length = 0.002;
       const double side = side_ * target();
+      now_.mass_defect = mass_defect;
       now_.force = {side * std::sin(7 * now_.time), side * std::cos(11 * now_.time),
                     target() * (0.9 + mode_ + 0.1 * std::sin(40 * now_.time))};
       stand_at(now_.force.z);
@@ -51,6 +54,8 @@ class SwingingFlow final : public FormulaFlow {
     now_.step = std::stoi(read_file(folder / "step"));
   }
 
+  static constexpr double mass_defect = 1e-3;  // of every step
+
  private:
   double side_, mode_;
   FlowStep now_;
@@ -64,14 +69,18 @@ struct SwingingEngine : FlowEngine {
   }
 };
 
-SteadyProblem swinging_problem() {
+Settings swinging_settings() {
   Case given = read_case(fs::path(RIPSTOP_SOURCE_DIR) / "examples/stratos-iv/case.toml");
   given.parachute.mesh.cloth_nodes = 800;
   given.flow.cells = {20, 20, 30};
   given.flow.unsteady = true;
   given.flow.watch.shortest = 20;
   given.coupling.threads = 1;
-  return steady_problem(resolve(given));
+  return resolve(given);
+}
+
+SteadyProblem swinging_problem() {
+  return steady_problem(swinging_settings());
 }
 
 TEST(UnsteadyRun, EndsAtRestFirstAndThenWithTheMeanOverTime) {
@@ -97,6 +106,18 @@ TEST(UnsteadyRun, EndsAtRestFirstAndThenWithTheMeanOverTime) {
   EXPECT_LE(last.drag_error, 0.01 * last.fluid_force);
   EXPECT_GT(last.drag_error, 0);
   EXPECT_EQ(last.flow_iterations, static_cast<int>(solver.record().steps.size()));
+
+  EXPECT_EQ(state.window.mass_defect, SwingingFlow::mass_defect);
+  const auto told = [&](double defect) {
+    state.window.mass_defect = defect;
+    const SteadyResult result = steady_result(solver, state, swinging_settings());
+    for (const std::string& text : *result.warnings)
+      if (text.find("largest mass defect of the air") == 0) return text;
+    return std::string();
+  };
+  EXPECT_EQ(told(SwingingFlow::mass_defect), "");
+  EXPECT_NE(told(0.02), "");
+  EXPECT_NE(told(0.1).find("must not be used"), std::string::npos);
 }
 
 // A mean with a random direction inclines the cloth, from mean to mean. The coupling must not wait for the
@@ -240,6 +261,8 @@ TEST(UnsteadyRun, LeavesItsHistoryAndItsWakeInTheFolder) {
       history.column("time_s").back() - history.column("time_s").front() + history.column("step_s")[0],
       watched.time, 1e-9);
   EXPECT_GT(watched.start_up, 0);
+  EXPECT_GT(watched.mass_defect, 0);
+  EXPECT_LT(watched.mass_defect, quality_limit("mass_defect").warn);
   // Of all steps without the start-up, and of every eighth field in whole parts: equal except for the error
   // of so short a window.
   EXPECT_GT(watched.error, 0);

@@ -8,6 +8,8 @@
 #include "ripstop/case/case.h"
 #include "ripstop/case/resolve.h"
 #include "ripstop/parachute/profile.h"
+#include "ripstop/run/descent/recovery.h"
+#include "ripstop/run/opening/fastest.h"
 
 namespace ripstop {
 namespace {
@@ -51,6 +53,27 @@ TEST(Warnings, TheAirIsOutsideItsRangesAtHighSpeedAndOnSmallSlowCanopies) {
   EXPECT_TRUE(with("70", tight).empty());
   only(with("100", tight, {{"flow.temperature_k", "220"}}), "Mach number of 0.336");
   only(with("1", tight, {{"parachute.nominal_diameter_m", "0.14"}}), "Reynolds number of");
+}
+
+// 615 N in place of 400 N were printed without a warning.
+TEST(Warnings, CoefficientsOfPorousCellsHoldOnTheCellsOfTheirCalibration) {
+  Case given = warned_case();
+  EXPECT_TRUE(porosity_warnings(resolve(given)).empty());
+  given.flow.cells = {50, 50, 75};
+  const std::vector<std::string> coarse = porosity_warnings(resolve(given));
+  ASSERT_EQ(coarse.size(), 2u);
+  for (const std::string& text : coarse)
+    EXPECT_NE(text.find("calibrated on cells of 0.02 x 0.02 x 0.0267 m"), std::string::npos) << text;
+  const std::vector<std::string> all = case_warnings(resolve(given));
+  EXPECT_NE(std::find(all.begin(), all.end(), coarse[0]), all.end());
+  given.flow.box_m = Vec3{1, 1, 2};  // the same cells again
+  EXPECT_TRUE(porosity_warnings(resolve(given)).empty());
+  Fabric cloth = canopy_fabric(given);
+  cloth.resistance.darcy_1_m2 = 50;
+  given.materials.insert_or_assign(given.parachute.canopy_material, cloth);
+  const std::vector<std::string> own = porosity_warnings(resolve(given));
+  ASSERT_EQ(own.size(), 1u);
+  EXPECT_NE(own[0].find("the cells at this canopy are 0.02 x 0.02 x 0.0267 m"), std::string::npos) << own[0];
 }
 
 TEST(Warnings, AMeshIsWarnedOfWithFewerNodesThanItsTypeNeeds) {
@@ -131,6 +154,35 @@ TEST(Warnings, AnApexThatIsPulledDownIsWarnedOf) {
   const double below = *std::max_element(heights.begin(), heights.end()) - heights.back();
   EXPECT_NE(warnings[0].find(fmt::format("the vent is {:.3g} m below", below)), std::string::npos)
       << warnings[0];
+}
+
+// Every command that compares loads with this strength has the warning.
+TEST(Warnings, AStrengthAboveThatOfAnyFibreIsWarnedOfByCheckLoadFastestAndRecovery) {
+  const auto with = [](double break_load) {
+    Case given = read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/flat-circular/case.toml");
+    Line cord = suspension_line(given);
+    cord.name = given.parachute.lines.material = "cord", cord.break_load_n = break_load;
+    given.materials.insert_or_assign(cord.name, cord);
+    return resolve(checked(given));
+  };
+  const auto warned = [](const std::vector<std::string>& all) {
+    return std::count_if(all.begin(), all.end(), [](const std::string& text) {
+      return text.find("cord: its strength (breaking load) is 4.5 N/tex") != std::string::npos;
+    });
+  };
+  const Settings strong = with(9000), usual = with(3500);
+  EXPECT_EQ(warned(case_warnings(strong)), 1);
+  EXPECT_EQ(warned(warnings_of(strong, 0)), 1);
+  EXPECT_EQ(warned(warnings_of(strong, 0, true)), 1);
+  LoadRequest load;
+  load.payload_mass = 2.4, load.speed = 20;
+  EXPECT_EQ(warned(run_load(strong, load).warnings), 1);
+  EXPECT_EQ(warned(run_fastest(strong, load).warnings), 1);
+  RecoveryRequest recovery;
+  recovery.mass = 2.4, recovery.apogee = 300;
+  EXPECT_EQ(warned(run_recovery(strong, {}, recovery).warnings), 1);
+  EXPECT_TRUE(case_warnings(usual).empty());
+  EXPECT_TRUE(run_load(usual, load).warnings.empty());
 }
 
 }  // namespace

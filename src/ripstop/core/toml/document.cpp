@@ -86,7 +86,9 @@ Document parse_toml(const std::string& text, const std::string& name) {
   try {
     return {name, converted(toml::parse(text, name))};
   } catch (const toml::parse_error& error) {
-    refuse(name, place_at(error.source().begin), "not valid TOML: " + std::string(error.description()));
+    refuse(name, place_at(error.source().begin),
+           "not valid TOML: " + std::string(error.description()) +
+               "; keys are KEY = VALUE, tables [NAME], text is in quotes");
   }
 }
 

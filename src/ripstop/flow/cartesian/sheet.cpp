@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <tuple>
 #include <utility>
 
 #include "ripstop/core/error.h"
 #include "ripstop/flow/cartesian/solid_faces.h"
 #include "ripstop/flow/cartesian/state.h"
+#include "ripstop/flow/cartesian/wall_distance.h"
 
 namespace ripstop::inline flow::cartesian {
 namespace {
@@ -86,9 +85,9 @@ double passing(double asked, double yields, const PressureDrop& law) {
 }  // namespace
 
 SheetRows::SheetRows(const Axis& x, const Axis& y, const Axis& z, const std::vector<FlowBody>& bodies,
-                     bool quarter)
+                     bool quarter, ThreadTeam* team)
     : nx_(x.n), ny_(y.n), nz_(z.n), quarter_(quarter) {
-  add_faces(x, y, z, bodies);
+  add_faces(x, y, z, bodies, team);
   if (faces_.empty()) return;
   double across = 0;
   for (const Face& face : faces_)
@@ -97,7 +96,8 @@ SheetRows::SheetRows(const Axis& x, const Axis& y, const Axis& z, const std::vec
   lay_out();
 }
 
-void SheetRows::add_faces(const Axis& x, const Axis& y, const Axis& z, const std::vector<FlowBody>& bodies) {
+void SheetRows::add_faces(const Axis& x, const Axis& y, const Axis& z, const std::vector<FlowBody>& bodies,
+                          ThreadTeam* team) {
   for (int s = 0; s < static_cast<int>(bodies.size()); ++s) {
     const FlowBody& sheet = bodies[s];
     if (!sheet.is_sheet()) continue;
@@ -115,11 +115,11 @@ void SheetRows::add_faces(const Axis& x, const Axis& y, const Axis& z, const std
                     fmt::format("sheet: the motion of {} triangles for {}", count, sheet.surface.size()));
     }
     if (!quarter_) {
-      for (const SheetFace& geometry : faces_of(x, y, z, sheet))
+      for (const SheetFace& geometry : faces_of(x, y, z, sheet, team))
         faces_.push_back(face_of(geometry, s, sheet, {&x, &y, &z}));
       continue;
     }
-    std::vector<SheetFace> found = faces_of(whole_of(x), whole_of(y), z, sheet);
+    std::vector<SheetFace> found = faces_of(whole_of(x), whole_of(y), z, sheet, team);
     const std::vector<std::array<int, images>> triangles = take_quarter(found, nx_, ny_);
     for (std::size_t n = 0; n < found.size(); ++n) {
       const SheetFace& g = found[n];
@@ -189,14 +189,15 @@ void SheetRows::lay_out() {
     if (face.beyond != 0 && row_at != 0 && covered[row_at + g.i + (g.axis == 0 ? next : 0)] > 0)
       face.beyond = 0;
   }
-  std::map<std::size_t, std::pair<Face*, Face*>> outermost;  // of the layers that part the same two centres
+  std::vector<std::pair<Face*, Face*>> outermost(size);  // of the layers that part the same two centres
   for (Face& face : faces_) {
-    auto& [low, high] = outermost.try_emplace(face.at, &face, &face).first->second;
+    auto& [low, high] = outermost[face.at];
     const auto place = [](const Face* f) { return along(f->geometry.axis, f->geometry.point); };
-    if (place(&face) < place(low)) low = &face;
-    if (place(&face) > place(high)) high = &face;
+    if (!low || place(&face) < place(low)) low = &face;
+    if (!high || place(&face) > place(high)) high = &face;
   }
-  for (const auto& [at, layers] : outermost) layers.first->lowest = layers.second->highest = true;
+  for (const auto& [low, high] : outermost)
+    if (low) low->lowest = high->highest = true;
 }
 
 void SheetRows::begin(State& state, const Layout& layout) const {
@@ -212,15 +213,12 @@ void SheetRows::begin(State& state, const Layout& layout) const {
 void SheetRows::begin(State& state, const Layout& layout, const SheetRows& before) const {
   const std::vector<double> held = std::move(state.held), change = std::move(state.change);
   begin(state, layout);
-  std::map<std::tuple<int, int, int, int>, std::size_t> old;
-  for (const Face& face : before.faces_) {
-    const SheetFace& g = face.geometry;
-    old[{g.axis, g.i, g.j, g.k}] = face.at;
-  }
+  std::vector<char> parted(before.law_.size(), 0);
+  for (const Face& face : before.faces_) parted[face.at] = 1;
   for (const Face& face : faces_) {
     const SheetFace& g = face.geometry;
-    const auto found = old.find({g.axis, g.i, g.j, g.k});
-    if (found != old.end()) state.held[face.at] = held[found->second] + change[found->second];
+    const std::size_t row_at = before.offset(g.axis, g.j, g.k), old = row_at + g.i;
+    if (row_at > 0 && parted[old] != 0) state.held[face.at] = held[old] + change[old];
   }
 }
 
@@ -312,57 +310,25 @@ void SheetRows::settle(State& state) const {
   }
 }
 
-Array<double> SheetRows::distance(const Axis& x, const Axis& y, const Axis& z, const Layout& layout) const {
-  const auto centre = [](const Axis& axis, int c) { return 0.5 * (axis.edge[c] + axis.edge[c + 1]); };
-  const auto cell = [&](int i, int j, int k) {
-    return i + static_cast<std::size_t>(nx_) * (j + static_cast<std::size_t>(ny_) * k);
-  };
-  std::vector<int> nearest(static_cast<std::size_t>(nx_) * ny_ * nz_, -1);
-  std::vector<double> square(nearest.size(), 1e300);
-  const auto offer = [&](int i, int j, int k, int face) {
-    if (face < 0) return;
-    const Vec3 apart = Vec3{centre(x, i), centre(y, j), centre(z, k)} - faces_[face].geometry.point;
-    const std::size_t c = cell(i, j, k);
-    if (dot(apart, apart) < square[c]) square[c] = dot(apart, apart), nearest[c] = face;
-  };
+Array<double> SheetRows::distance(const Axis& x, const Axis& y, const Axis& z, const Layout& layout,
+                                  ThreadTeam* team) const {
+  std::vector<Vec3> points;
+  points.reserve(faces_.size());
+  for (const Face& face : faces_) points.push_back(face.geometry.point);
+  WallDistance wall(x, y, z, std::move(points));
   for (int f = 0; f < static_cast<int>(faces_.size()); ++f) {
     const SheetFace& g = faces_[f].geometry;
-    offer(g.i, g.j, g.k, f);
-    if (!faces_[f].in_plane) offer(g.i - (g.axis == 0), g.j - (g.axis == 1), g.k - (g.axis == 2), f);
+    wall.offer(g.i, g.j, g.k, f);
+    if (!faces_[f].in_plane) wall.offer(g.i - (g.axis == 0), g.j - (g.axis == 1), g.k - (g.axis == 2), f);
   }
-  // The nearest face of a cell is nearly always that of one of its neighbours: swept to
-  // and fro along each axis.
-  for (int pass = 0; pass < 2; ++pass) {
-    for (int k = 0; k < nz_; ++k) {
-      for (int j = 0; j < ny_; ++j) {
-        for (int i = 1; i < nx_; ++i) offer(i, j, k, nearest[cell(i - 1, j, k)]);
-        for (int i = nx_ - 2; i >= 0; --i) offer(i, j, k, nearest[cell(i + 1, j, k)]);
-      }
-      for (int j = 1; j < ny_; ++j) {
-        for (int i = 0; i < nx_; ++i) offer(i, j, k, nearest[cell(i, j - 1, k)]);
-      }
-      for (int j = ny_ - 2; j >= 0; --j) {
-        for (int i = 0; i < nx_; ++i) offer(i, j, k, nearest[cell(i, j + 1, k)]);
-      }
-    }
-    for (int k = 1; k < nz_; ++k) {
-      for (int j = 0; j < ny_; ++j) {
-        for (int i = 0; i < nx_; ++i) offer(i, j, k, nearest[cell(i, j, k - 1)]);
-      }
-    }
-    for (int k = nz_ - 2; k >= 0; --k) {
-      for (int j = 0; j < ny_; ++j) {
-        for (int i = 0; i < nx_; ++i) offer(i, j, k, nearest[cell(i, j, k + 1)]);
-      }
-    }
-  }
+  wall.sweep(team);
   const auto least = [](const Axis& axis) { return *std::min_element(axis.width.begin(), axis.width.end()); };
   const double floor = 0.5 * std::min({least(x), least(y), least(z)});
   Array<double> result(layout.values(), floor);
   for (int k = 0; k < nz_; ++k) {
     for (int j = 0; j < ny_; ++j) {
       for (int i = 0; i < nx_; ++i)
-        result[layout.at(i, j, k)] = std::max(floor, std::sqrt(square[cell(i, j, k)]));
+        result[layout.at(i, j, k)] = std::max(floor, std::sqrt(wall.square(i, j, k)));
     }
   }
   return result;

@@ -24,8 +24,9 @@ class SheetRows {
   SheetRows() = default;
   /// Throws Error(bad_data) for coefficients that are negative or not finite, or a number of velocities that
   /// is not that of the triangles. `quarter`: the axes are those of a quarter (quarter.h), the bodies are whole.
+  /// `team` shares the work; the rows do not depend on it.
   SheetRows(const Axis& x, const Axis& y, const Axis& z, const std::vector<FlowBody>& bodies,
-            bool quarter = false);
+            bool quarter = false, ThreadTeam* team = nullptr);
 
   bool empty() const { return faces_.empty(); }
   /// Whether the sheets leave next to nothing of the box's cross-section open.
@@ -51,7 +52,8 @@ class SheetRows {
 
   /// Distance of each cell's centre to the nearest face that a sheet parts [m], no less
   /// than half the least cell.
-  Array<double> distance(const Axis& x, const Axis& y, const Axis& z, const Layout& layout) const;
+  Array<double> distance(const Axis& x, const Axis& y, const Axis& z, const Layout& layout,
+                         ThreadTeam* team = nullptr) const;
   /// Loads of the air on the sheets, face by face; of a quarter those of the mirror images too.
   std::vector<SheetLoad> loads(const State& state, const Layout& layout) const;
 
@@ -79,7 +81,8 @@ class SheetRows {
     std::size_t at = 0;                    // in the dense rows
   };
   void hold_in_the_middle(const State& state, const Layout& layout, double step);
-  void add_faces(const Axis& x, const Axis& y, const Axis& z, const std::vector<FlowBody>& bodies);
+  void add_faces(const Axis& x, const Axis& y, const Axis& z, const std::vector<FlowBody>& bodies,
+                 ThreadTeam* team);
   Face face_of(const SheetFace& geometry, int body, const FlowBody& sheet,
                const std::array<const Axis*, 3>& axes) const;
   void lay_out();

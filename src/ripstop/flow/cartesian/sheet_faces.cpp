@@ -1,17 +1,16 @@
 #include "ripstop/flow/cartesian/sheet_faces.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <bitset>
 #include <cmath>
-#include <map>
-#include <unordered_map>
+#include <cstdint>
+#include <span>
+#include <tuple>
 #include <utility>
 
-#include "ripstop/core/checked_int.h"
-#include "ripstop/flow/hems.h"
+#include "ripstop/flow/cartesian/near_hem.h"
+#include "ripstop/flow/cartesian/places.h"
 
 namespace ripstop::inline flow::cartesian {
 namespace {
@@ -26,125 +25,15 @@ constexpr double longest = 6.0;  // ... and the largest addition where the sheet
 /// centre is on the sheet to rounding, the lines through it would otherwise disagree, and air would pass the cell.
 constexpr Vec3 nudge{1e-9, 0.71e-9, 0.43e-9};
 
-constexpr double longest_hem = 1e6;  // one edge of a triangle, in cells
 using Point = std::array<double, 3>;
 
 Point point_of(Vec3 v) {
   return {v.x, v.y, v.z};
 }
 
-/// Cell of an axis that contains x; -1 or n outside.
-int cell_at(const Axis& axis, double x) {
-  if (x < axis.edge.front()) return -1;
-  return static_cast<int>(std::upper_bound(axis.edge.begin(), axis.edge.end(), x) - axis.edge.begin()) - 1;
-}
-
 double centre(const Axis& axis, int c) {
   return 0.5 * (axis.edge[c] + axis.edge[c + 1]);
 }
-
-double least_width(const std::array<const Axis*, 3>& axes) {
-  double least = 1e300;
-  for (const Axis* axis : axes)
-    least = std::min(least, *std::min_element(axis->width.begin(), axis->width.end()));
-  return least;
-}
-
-/// Whether the sheet ends before it gets to where a point is, by the hem that is nearest to it.
-bool ended(Vec3 point, const std::vector<Hem>& hems) {
-  double least = 1e300;
-  bool ended = false;
-  for (const Hem& hem : hems) {
-    const Vec3 along = hem.to - hem.from, from = point - hem.from;
-    const double share = std::clamp(dot(from, along) / dot(along, along), 0.0, 1.0);
-    const Vec3 apart = from - share * along;
-    const double square = dot(apart, apart);
-    if (square > least * (1 + 1e-9)) continue;
-    const bool out = dot(apart, hem.inward) < 0;
-    ended = square < least * (1 - 1e-9) ? out : ended || out;  // two that meet in a corner
-    least = square;
-  }
-  return ended;
-}
-
-/// The free edges, and the cells within two cells of them.
-class NearHem {
- public:
-  NearHem(const std::array<const Axis*, 3>& axes, const std::vector<Triangle>& surface)
-      : axes_(axes), hems_(hems(surface)), least_width_(least_width(axes)) {
-    near_.assign(static_cast<std::size_t>(axes[0]->n) * axes[1]->n * axes[2]->n, 0);
-    for (std::size_t hem = 0; hem < hems_.size(); ++hem) mark(hem);
-  }
-
-  bool at(const Point& p) const {
-    int c[3];
-    for (int a = 0; a < 3; ++a) {
-      c[a] = cell_at(*axes_[a], p[a]);
-      if (c[a] < 0 || c[a] >= axes_[a]->n) return false;
-    }
-    return near_[index(c[0], c[1], c[2])] != 0;
-  }
-
-  /// Those within two cells of one along an axis, and one to the sides.
-  std::vector<Hem> about(const std::array<int, 3>& cell, int axis) const {
-    std::vector<Hem> result;
-    std::array<int, 3> far{1, 1, 1};
-    far[axis] = 2;
-    for_cells_about(cell, far, [&](std::size_t c) {
-      const auto found = in_cell_.find(c);
-      if (found == in_cell_.end()) return;
-      for (const std::size_t hem : found->second) result.push_back(hems_[hem]);
-    });
-    return result;
-  }
-
- private:
-  std::size_t index(int i, int j, int k) const {
-    return i + static_cast<std::size_t>(axes_[0]->n) * (j + static_cast<std::size_t>(axes_[1]->n) * k);
-  }
-
-  template <class Visit>
-  void for_cells_about(const std::array<int, 3>& cell, const std::array<int, 3>& far,
-                       const Visit& visit) const {
-    int low[3], high[3];
-    for (int a = 0; a < 3; ++a)
-      low[a] = std::max(cell[a] - far[a], 0), high[a] = std::min(cell[a] + far[a], axes_[a]->n - 1);
-    for (int k = low[2]; k <= high[2]; ++k)
-      for (int j = low[1]; j <= high[1]; ++j)
-        for (int i = low[0]; i <= high[0]; ++i) visit(index(i, j, k));
-  }
-
-  void mark(std::size_t hem) {
-    const Vec3 p = hems_[hem].from, q = hems_[hem].to;
-    const int steps = 1 + checked_int(norm(q - p) / least_width_, 0, longest_hem, [&] {
-                        return fmt::format(
-                            "a free edge of the sheet is {:.3g} m long: its motion has diverged; "
-                            "a smaller time step may help",
-                            norm(q - p));
-                      });
-    for (int s = 0; s <= steps; ++s) {
-      const Point at = point_of(p + (static_cast<double>(s) / steps) * (q - p));
-      std::array<int, 3> cell;
-      bool outside = false;
-      for (int a = 0; a < 3; ++a) {
-        cell[a] = cell_at(*axes_[a], at[a]);
-        outside = outside || at[a] < axes_[a]->edge.front() - 2 * axes_[a]->width.front() ||
-                  at[a] > axes_[a]->edge.back() + 2 * axes_[a]->width.back();
-      }
-      if (outside) continue;
-      for_cells_about(cell, {2, 2, 2}, [&](std::size_t c) { near_[c] = 1; });
-      for (int a = 0; a < 3; ++a) cell[a] = std::clamp(cell[a], 0, axes_[a]->n - 1);
-      std::vector<std::size_t>& here = in_cell_[index(cell[0], cell[1], cell[2])];
-      if (here.empty() || here.back() != hem) here.push_back(hem);
-    }
-  }
-
-  std::array<const Axis*, 3> axes_;
-  std::vector<Hem> hems_;
-  double least_width_;
-  std::vector<char> near_;
-  std::unordered_map<std::size_t, std::vector<std::size_t>> in_cell_;  // hems that pass through it
-};
 
 /// Sheet in a cell that found no face of its own axis.
 struct Share {
@@ -156,8 +45,8 @@ struct Hit {
   double at = 0;      // along the axis [m]
   double nudged = 0;  // the same of the sheet moved by `nudge` [m]
   int triangle = 0;
-  int line = 0;  // 0 .. lines^2 - 1
-  bool hem = false;
+  int line = 0;        // 0 .. lines^2 - 1
+  int cu = 0, cv = 0;  // cell across the axis
 };
 
 /// Of a cell's line s along one axis.
@@ -189,33 +78,91 @@ Vec3 unit_normal(const Triangle& t) {
   return length > 0 ? n / length : Vec3{};
 }
 
+/// A sheet on a grid, for the columns of all axes.
+struct Sheet {
+  Sheet(const std::array<const Axis*, 3>& all_axes, const std::vector<Triangle>& triangles)
+      : axes(all_axes),
+        surface(triangles),
+        normals(triangles.size()),
+        edges{Places(axes[0]->edge), Places(axes[1]->edge), Places(axes[2]->edge)},
+        line_at{Places(line_positions(*axes[0])), Places(line_positions(*axes[1])),
+                Places(line_positions(*axes[2]))},
+        hem(axes, edges, triangles),
+        nudged_by(least_width(axes) * nudge) {}
+
+  /// Cell of an axis that contains x; -1 or n outside.
+  int cell_at(int axis, double x) const { return edges[axis].up_to(x) - 1; }
+
+  std::array<const Axis*, 3> axes;
+  const std::vector<Triangle>& surface;
+  std::vector<Vec3> normals;  // unit, of every triangle
+  std::array<Places, 3> edges, line_at;
+  NearHem hem;
+  Vec3 nudged_by;  // [m]
+};
+
+/// Faces of some columns, and sheet that has none there.
+struct ColumnFaces {
+  std::vector<SheetFace> faces;
+  std::vector<Share> left_over;
+};
+
+/// The columns of cells along one axis: the lines in them meet the sheet, and the hits of a column become faces.
 class Columns {
  public:
-  Columns(int axis, const std::array<const Axis*, 3>& axes, const std::vector<Triangle>& surface,
-          const NearHem& hem)
+  Columns(int axis, const Sheet& sheet, int ranks)
       : axis_(axis),
         u_((axis + 1) % 3),
         v_((axis + 2) % 3),
-        axes_(axes),
-        surface_(surface),
-        hem_(hem),
-        nudge_(least_width(axes) * nudge) {
-    const std::vector<double> us = line_positions(*axes[u_]), vs = line_positions(*axes[v_]);
-    hits_.resize(static_cast<std::size_t>(axes[u_]->n) * axes[v_]->n);
-    for (int t = 0; t < static_cast<int>(surface.size()); ++t) project(t, us, vs);
+        sheet_(sheet),
+        axes_(sheet.axes),
+        hits_(static_cast<std::size_t>(ranks)) {}
+
+  /// One thread's part of the triangles.
+  void project(int rank, IndexRange triangles) {
+    for (int t = triangles.begin; t < triangles.end; ++t) project(t, hits_[rank]);
   }
 
-  void faces(std::vector<SheetFace>& result, std::vector<Share>& left_over) {
-    for (int cv = 0; cv < axes_[v_]->n; ++cv) {
-      for (int cu = 0; cu < axes_[u_]->n; ++cu) {
-        std::vector<Hit>& hits = hits_[cu + static_cast<std::size_t>(axes_[u_]->n) * cv];
-        if (!hits.empty()) faces_of_column(hits, cu, cv, result, left_over);
-      }
-    }
+  /// One thread's part of the columns, after all triangles have been projected. Those of all ranks, one after the
+  /// other, are in an order that does not depend on their number.
+  void faces(int rank, ColumnFaces& result) const {
+    const int across = axes_[u_]->n;
+    const IndexRange rows = rows_of(rank);
+    const auto each_hit = [&](const auto& visit) {
+      for (const std::vector<Hit>& some : hits_)
+        for (const Hit& h : some)
+          if (h.cv >= rows.begin && h.cv < rows.end) visit(h, h.cu + across * (h.cv - rows.begin));
+    };
+    std::vector<int> begin(static_cast<std::size_t>(across) * (rows.end - rows.begin) + 1, 0);
+    each_hit([&](const Hit&, int column) { ++begin[column + 1]; });
+    for (std::size_t n = 1; n < begin.size(); ++n) begin[n] += begin[n - 1];
+    std::vector<int> next(begin.begin(), begin.end() - 1);
+    std::vector<Hit> hits(begin.back());
+    each_hit([&](const Hit& h, int column) { hits[next[column]++] = h; });
+    HemsAbout hems;
+    for (std::size_t n = 0; n + 1 < begin.size(); ++n)
+      if (begin[n] < begin[n + 1])
+        faces_of_column({hits.begin() + begin[n], hits.begin() + begin[n + 1]}, hems, result);
   }
 
  private:
   using Corners = std::array<Point, 3>;
+  using Hits = std::span<Hit>;
+
+  /// Rows of columns with about as many hits as those of every other rank.
+  IndexRange rows_of(int rank) const {
+    std::vector<long long> before(axes_[v_]->n + 1, 0);
+    for (const std::vector<Hit>& some : hits_)
+      for (const Hit& h : some) ++before[h.cv + 1];
+    for (std::size_t n = 1; n < before.size(); ++n) before[n] += before[n - 1];
+    const auto ranks = static_cast<long long>(hits_.size());
+    const auto first = [&](int r) {
+      if (r == ranks) return axes_[v_]->n;
+      const auto at = std::lower_bound(before.begin(), before.end() - 1, before.back() * r / ranks);
+      return static_cast<int>(at - before.begin());
+    };
+    return {rank == 0 ? 0 : first(rank), first(rank + 1)};
+  }
 
   double projected_area(const Corners& p) const {  // twice, signed
     return (p[1][u_] - p[0][u_]) * (p[2][v_] - p[0][v_]) - (p[1][v_] - p[0][v_]) * (p[2][u_] - p[0][u_]);
@@ -229,23 +176,24 @@ class Columns {
                       high);
   }
 
-  void project(int t, const std::vector<double>& us, const std::vector<double>& vs) {
-    const Triangle& s = surface_[t];
+  void project(int t, std::vector<Hit>& hits) const {
+    const Triangle& s = sheet_.surface[t];
+    const Vec3 by = sheet_.nudged_by;
     const Corners still = {point_of(s.a), point_of(s.b), point_of(s.c)},
-                  p = {point_of(s.a + nudge_), point_of(s.b + nudge_), point_of(s.c + nudge_)};
+                  p = {point_of(s.a + by), point_of(s.b + by), point_of(s.c + by)};
+    const auto range = [&](int a) {  // the sheet is nudged upwards
+      return IndexRange{sheet_.line_at[a].below(std::min({still[0][a], still[1][a], still[2][a]})),
+                        sheet_.line_at[a].up_to(std::max({p[0][a], p[1][a], p[2][a]}))};
+    };
+    const IndexRange us = range(u_);
+    if (us.begin >= us.end) return;
+    const IndexRange vs = range(v_);
+    if (vs.begin >= vs.end) return;
     const double area = projected_area(still), nudged_area = projected_area(p);
     if (area == 0 || nudged_area == 0) return;
-    const auto range = [&](const std::vector<double>& all, int a) {
-      const auto [low, high] =
-          std::minmax({p[0][a], p[1][a], p[2][a], still[0][a], still[1][a], still[2][a]});
-      return std::pair(std::lower_bound(all.begin(), all.end(), low) - all.begin(),
-                       std::upper_bound(all.begin(), all.end(), high) - all.begin());
-    };
-    const auto [u_begin, u_end] = range(us, u_);
-    const auto [v_begin, v_end] = range(vs, v_);
-    for (auto iv = v_begin; iv < v_end; ++iv) {
-      for (auto iu = u_begin; iu < u_end; ++iu) {
-        const double u = us[iu], v = vs[iv];
+    for (int iv = vs.begin; iv < vs.end; ++iv) {
+      for (int iu = us.begin; iu < us.end; ++iu) {
+        const double u = sheet_.line_at[u_][iu], v = sheet_.line_at[v_][iv];
         // The other lines of a cell measure covered areas, to which the sheet itself belongs.
         const bool central = iu % lines == centre_line && iv % lines == centre_line;
         const Corners& q = central ? p : still;
@@ -254,15 +202,8 @@ class Columns {
             left_of(q[2][u_], q[2][v_], q[0][u_], q[0][v_], u, v) != first) {
           continue;
         }
-        Hit hit;
-        hit.at = met_at(still, area, u, v);
-        hit.nudged = met_at(p, nudged_area, u, v);
-        hit.triangle = t;
-        hit.line = static_cast<int>(iu % lines + lines * (iv % lines));
-        Point point;
-        point[axis_] = hit.at, point[u_] = u, point[v_] = v;
-        hit.hem = hem_.at(point);
-        hits_[iu / lines + static_cast<std::size_t>(axes_[u_]->n) * (iv / lines)].push_back(hit);
+        hits.push_back({met_at(still, area, u, v), met_at(p, nudged_area, u, v), t,
+                        iu % lines + lines * (iv % lines), iu / lines, iv / lines});
       }
     }
   }
@@ -271,93 +212,108 @@ class Columns {
   Vec3 normal_of(Vec3 n) const { return point_of(n)[axis_] < 0 ? -1.0 * n : n; }
 
   double width_at(double at) const {
-    return axes_[axis_]->width[std::clamp(cell_at(*axes_[axis_], at), 0, axes_[axis_]->n - 1)];
+    return axes_[axis_]->width[std::clamp(sheet_.cell_at(axis_, at), 0, axes_[axis_]->n - 1)];
   }
 
   /// Area of the sheet of one line that belongs to faces of this axis [m2].
-  double share(const Hit& h, int cu, int cv) const {
-    return std::abs(point_of(unit_normal(surface_[h.triangle]))[axis_]) * axes_[u_]->width[cu] *
-           axes_[v_]->width[cv] / (lines * lines);
+  double share(const Hit& h) const {
+    return std::abs(point_of(sheet_.normals[h.triangle])[axis_]) * axes_[u_]->width[h.cu] *
+           axes_[v_]->width[h.cv] / (lines * lines);
   }
+  bool near_hem(const Hit& h) const { return sheet_.hem.at(cell_of(h)); }
 
   /// The new face, or null where no two centres lie on either side.
-  SheetFace* add(const Hit& hit, int cu, int cv, std::vector<SheetFace>& result) const {
+  SheetFace* add(const Hit& hit, std::vector<SheetFace>& result) const {
     const Axis& axis = *axes_[axis_];
-    int cell = cell_at(axis, hit.nudged);
+    int cell = sheet_.cell_at(axis_, hit.nudged);
     if (cell < 0 || cell >= axis.n) return nullptr;
     if (hit.nudged >= centre(axis, cell)) ++cell;  // between the centres of cell - 1 and cell
     if (cell < 1 || cell >= axis.n) return nullptr;
     SheetFace face;
     face.axis = axis_;
     int c[3];
-    c[axis_] = cell, c[u_] = cu, c[v_] = cv;
+    c[axis_] = cell, c[u_] = hit.cu, c[v_] = hit.cv;
     face.i = c[0], face.j = c[1], face.k = c[2];
     face.triangle = hit.triangle;
     Point point;
-    point[axis_] = hit.at, point[u_] = centre(*axes_[u_], cu), point[v_] = centre(*axes_[v_], cv);
+    point[axis_] = hit.at, point[u_] = centre(*axes_[u_], hit.cu), point[v_] = centre(*axes_[v_], hit.cv);
     face.point = {point[0], point[1], point[2]};
-    face.outward = unit_normal(surface_[hit.triangle]);
+    face.outward = sheet_.normals[hit.triangle];
     face.against = point_of(face.outward)[axis_] < 0;
     face.normal = face.across = normal_of(face.outward);
     result.push_back(face);
     return &result.back();
   }
 
-  void faces_of_column(std::vector<Hit>& hits, int cu, int cv, std::vector<SheetFace>& result,
-                       std::vector<Share>& left_over) const {
+  void faces_of_column(Hits hits, HemsAbout& hems, ColumnFaces& result) const {
     std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) {
       return std::tie(a.at, a.triangle, a.line) < std::tie(b.at, b.triangle, b.line);
     });
+    std::vector<SheetFace>& faces = result.faces;
     const auto central = [](const Hit& h) { return h.line == centre_line * (lines + 1); };
-    const std::size_t first = result.size();
+    const std::size_t first = faces.size();
     for (const Hit& h : hits) {
-      SheetFace* face = central(h) ? add(h, cu, cv, result) : nullptr;
-      if (face) face->hem = h.hem;
+      SheetFace* face = central(h) ? add(h, faces) : nullptr;
+      if (face) face->hem = near_hem(h);
     }
-    const std::size_t last = result.size();
-    std::vector<Vec3> normals(last - first),
-        turned(last - first);        // of everything that a face represents, by area
+    const std::size_t count = faces.size() - first;
+    std::vector<Crossing> crossings;
+    crossings.reserve(count);
+    for (std::size_t n = 0; n < count; ++n) crossings.push_back(crossing_of(faces[first + n], hits[0]));
     std::vector<const Hit*> beside;  // near a hem, lines that meet the sheet where the central one does not
-    std::vector<std::bitset<lines * lines>> met(last - first);
     for (const Hit& h : hits) {
-      std::size_t nearest = last;
+      std::size_t nearest = count;
       double closest = 1;
-      for (std::size_t n = first; n < last; ++n) {
-        const Point at = point_of(result[n].point), normal = point_of(result[n].normal);
-        // As far as a slanted sheet gets along the axis while it crosses the column.
-        const double slant =
-            std::abs(normal[u_]) * axes_[u_]->width[cu] + std::abs(normal[v_]) * axes_[v_]->width[cv];
-        const double far = reach * width_at(h.at) +
-                           std::min(0.5 * slant / std::max(normal[axis_], 1e-3), longest * width_at(h.at));
-        const double apart = std::abs(at[axis_] - h.at) / far;
+      const double width = width_at(h.at);
+      for (std::size_t n = 0; n < count; ++n) {
+        Crossing& crossing = crossings[n];
+        const double far = reach * width + std::min(crossing.longer, longest * width);
+        const double apart = std::abs(crossing.at - h.at) / far;
         if (apart < closest) closest = apart, nearest = n;
-        if (apart < 1) met[n - first].set(h.line);
+        if (apart < 1) crossing.met.set(h.line);
       }
-      if (nearest < last) {
-        result[nearest].area += share(h, cu, cv);
-        normals[nearest - first] += share(h, cu, cv) * unit_normal(surface_[h.triangle]);
-        turned[nearest - first] += share(h, cu, cv) * normal_of(unit_normal(surface_[h.triangle]));
-      } else if (h.hem) {
+      if (nearest < count) {
+        const Vec3 normal = sheet_.normals[h.triangle];
+        const double area = share(h);
+        faces[first + nearest].area += area;
+        crossings[nearest].normals += area * normal;
+        crossings[nearest].turned += area * normal_of(normal);
+      } else if (near_hem(h)) {
         beside.push_back(&h);
       } else {
-        left_over.push_back({cell_of(h, cu, cv), share(h, cu, cv)});
+        result.left_over.push_back({cell_of(h), share(h)});
       }
     }
-    for (std::size_t n = first; n < last; ++n) {
-      if (result[n].hem)
-        result[n].cover = 1 - opening(result[n], point_of(result[n].point), met[n - first], cu, cv).share;
-      const Vec3 sum = normals[n - first];
-      if (norm(turned[n - first]) > 0) result[n].across = turned[n - first] / norm(turned[n - first]);
+    for (std::size_t n = 0; n < count; ++n) {
+      SheetFace& face = faces[first + n];
+      const Vec3 sum = crossings[n].normals, turned = crossings[n].turned;
+      if (face.hem)
+        face.cover = 1 - opening(face, point_of(face.point), crossings[n].met, hits[0], hems).share;
+      if (norm(turned) > 0) face.across = turned / norm(turned);
       if (!(norm(sum) > 0)) continue;
-      result[n].outward = sum / norm(sum);
-      result[n].normal = normal_of(result[n].outward);
+      face.outward = sum / norm(sum);
+      face.normal = normal_of(face.outward);
     }
-    hem_faces(beside, cu, cv, result, left_over);
+    hem_faces(beside, hems, result);
   }
 
-  /// Faces that the sheet covers in part, from lines in the order of their intersections.
-  void hem_faces(const std::vector<const Hit*>& beside, int cu, int cv, std::vector<SheetFace>& result,
-                 std::vector<Share>& left_over) const {
+  /// A face where the central line of its column has met the sheet.
+  struct Crossing {
+    double at = 0;      // along the axis [m]
+    double longer = 0;  // half as far as a slanted sheet gets along the axis while it crosses the column [m]
+    Vec3 normals, turned;  // of everything that the face represents, by area
+    std::bitset<lines* lines> met = {};
+  };
+  /// `h` is any hit of the column.
+  Crossing crossing_of(const SheetFace& face, const Hit& h) const {
+    const Point normal = point_of(face.normal);
+    const double slant =
+        std::abs(normal[u_]) * axes_[u_]->width[h.cu] + std::abs(normal[v_]) * axes_[v_]->width[h.cv];
+    return {point_of(face.point)[axis_], 0.5 * slant / std::max(normal[axis_], 1e-3), {}, {}};
+  }
+
+  /// Faces that the sheet covers in part, from lines of one column in the order of their intersections.
+  void hem_faces(const std::vector<const Hit*>& beside, HemsAbout& hems, ColumnFaces& result) const {
     for (std::size_t begin = 0; begin < beside.size();) {
       std::size_t end = begin + 1;
       while (end < beside.size() &&
@@ -372,25 +328,25 @@ class Columns {
         if (crossings[beside[n]->line] % 2 == 1) across.push_back(beside[n]);
       }
       const Hit* middle = across.empty() ? nullptr : across[across.size() / 2];
-      SheetFace* face = middle ? add(*middle, cu, cv, result) : nullptr;
+      SheetFace* face = middle ? add(*middle, result.faces) : nullptr;
       if (face) {
         std::bitset<lines * lines> met;
         for (const Hit* h : across) met.set(h->line);
         Point at;
         at[axis_] = middle->at;
-        at[u_] = line_position(*axes_[u_], cu, middle->line % lines);
-        at[v_] = line_position(*axes_[v_], cv, middle->line / lines);
-        const Opening open = opening(*face, at, met, cu, cv);
+        at[u_] = line_position(*axes_[u_], middle->cu, middle->line % lines);
+        at[v_] = line_position(*axes_[v_], middle->cv, middle->line / lines);
+        const Opening open = opening(*face, at, met, *middle, hems);
         face->hem = true;
         face->cover = 1 - open.share;
         if (!open.at_centre) {
-          result.pop_back();
+          result.faces.pop_back();
           face = nullptr;
         }
       }
       for (std::size_t n = begin; n < end; ++n) {
-        face ? void(face->area += share(*beside[n], cu, cv))
-             : left_over.push_back({cell_of(*beside[n], cu, cv), share(*beside[n], cu, cv)});
+        face ? void(face->area += share(*beside[n]))
+             : result.left_over.push_back({cell_of(*beside[n]), share(*beside[n])});
       }
       begin = end;
     }
@@ -410,24 +366,24 @@ class Columns {
     bool at_centre = false;  // on the central line the sheet has ended, and not bent out of the column
   };
   /// Open part of a face. Where a line does not intersect the sheet and the sheet has not ended, it has bent out of
-  /// the column and continues next to the face, and nothing is open. `at`: a point of the sheet in the column.
-  Opening opening(const SheetFace& face, const Point& at, const std::bitset<lines * lines>& met, int cu,
-                  int cv) const {
+  /// the column and continues next to the face, and nothing is open. `at`: a point of the sheet in the column of `h`.
+  Opening opening(const SheetFace& face, const Point& at, const std::bitset<lines * lines>& met, const Hit& h,
+                  HemsAbout& hems) const {
     Opening open;
     if (met.all()) return open;
-    const std::vector<Hem> hems = hem_.about({face.i, face.j, face.k}, axis_);
+    sheet_.hem.about({face.i, face.j, face.k}, axis_, hems);
     if (hems.empty()) return open;
     const Point normal = point_of(face.normal);
     const int cells[] = {face.i, face.j, face.k}, cell = cells[axis_];
     // In the plane through `at`, as far as that lies between the two centres; share_u, share_v: of the cell's width.
     const auto ends = [&](double share_u, double share_v) {
       Point p;
-      p[u_] = axes_[u_]->edge[cu] + share_u * axes_[u_]->width[cu];
-      p[v_] = axes_[v_]->edge[cv] + share_v * axes_[v_]->width[cv];
+      p[u_] = axes_[u_]->edge[h.cu] + share_u * axes_[u_]->width[h.cu];
+      p[v_] = axes_[v_]->edge[h.cv] + share_v * axes_[v_]->width[h.cv];
       const double slant =
           (normal[u_] * (p[u_] - at[u_]) + normal[v_] * (p[v_] - at[v_])) / std::max(normal[axis_], 1e-3);
       p[axis_] = std::clamp(at[axis_] - slant, centre(*axes_[axis_], cell - 1), centre(*axes_[axis_], cell));
-      return ended({p[0], p[1], p[2]}, hems);
+      return hems.ended({p[0], p[1], p[2]});
     };
     std::bitset<lines * lines> past;
     for (int line = 0; line < lines * lines; ++line)
@@ -451,49 +407,81 @@ class Columns {
     return open;
   }
 
-  std::array<int, 3> cell_of(const Hit& h, int cu, int cv) const {
+  std::array<int, 3> cell_of(const Hit& h) const {
     std::array<int, 3> cell;
-    cell[axis_] = cell_at(*axes_[axis_], h.at), cell[u_] = cu, cell[v_] = cv;
+    cell[axis_] = sheet_.cell_at(axis_, h.at), cell[u_] = h.cu, cell[v_] = h.cv;
     return cell;
   }
 
   int axis_, u_, v_;
+  const Sheet& sheet_;
   std::array<const Axis*, 3> axes_;
-  const std::vector<Triangle>& surface_;
-  const NearHem& hem_;
-  Vec3 nudge_;  // [m]
-  std::vector<std::vector<Hit>> hits_;
+  std::vector<std::vector<Hit>> hits_;  // of each rank's triangles
 };
+
+/// Number of a cell; unique also for those next to the box.
+std::int64_t number_of(const std::array<int, 3>& cell, const std::array<const Axis*, 3>& axes) {
+  return cell[0] + 1 + (axes[0]->n + 2) * (cell[1] + 1 + (axes[1]->n + 2) * (cell[2] + std::int64_t{1}));
+}
+
+// The rest, where the sheet is nearly parallel to an axis, is assigned to the face of its cell that is most nearly
+// normal to it.
+void assign(const std::vector<Share>& left_over, const std::array<const Axis*, 3>& axes,
+            std::vector<SheetFace>& faces) {
+  struct OfCell {
+    std::int64_t cell;
+    double square;
+    std::size_t face;
+  };
+  std::vector<OfCell> all;
+  all.reserve(2 * faces.size());
+  for (std::size_t n = 0; n < faces.size(); ++n) {
+    const SheetFace& f = faces[n];
+    const double square = point_of(f.normal)[f.axis];
+    std::array<int, 3> cell = {f.i, f.j, f.k};
+    all.push_back({number_of(cell, axes), square, n});
+    --cell[f.axis];
+    all.push_back({number_of(cell, axes), square, n});
+  }
+  // Of each cell the best one first, the earlier one of two that are alike.
+  std::sort(all.begin(), all.end(), [](const OfCell& a, const OfCell& b) {
+    return std::tuple(a.cell, -a.square, a.face) < std::tuple(b.cell, -b.square, b.face);
+  });
+  for (const Share& share : left_over) {
+    const std::int64_t cell = number_of(share.cell, axes);
+    const auto best = std::lower_bound(all.begin(), all.end(), cell,
+                                       [](const OfCell& a, std::int64_t c) { return a.cell < c; });
+    if (best != all.end() && best->cell == cell) faces[best->face].area += share.area;
+  }
+}
 
 }  // namespace
 
 std::vector<SheetFace> sheet_faces(const Axis& x, const Axis& y, const Axis& z,
-                                   const std::vector<Triangle>& surface) {
+                                   const std::vector<Triangle>& surface, ThreadTeam* team) {
   const std::array<const Axis*, 3> axes = {&x, &y, &z};
-  const NearHem hem(axes, surface);
+  const int ranks = team ? team->size() : 1;
+  Sheet sheet(axes, surface);
+  std::array<Columns, 3> columns = {Columns(0, sheet, ranks), Columns(1, sheet, ranks),
+                                    Columns(2, sheet, ranks)};
+  std::vector<std::array<ColumnFaces, 3>> found(static_cast<std::size_t>(ranks));
+  const auto work = [&](int rank) {
+    const IndexRange mine = part_of(static_cast<int>(surface.size()), rank, ranks);
+    for (int t = mine.begin; t < mine.end; ++t) sheet.normals[t] = unit_normal(surface[t]);
+    for (Columns& of_axis : columns) of_axis.project(rank, mine);
+    if (team) team->barrier();
+    for (int axis = 0; axis < 3; ++axis) columns[axis].faces(rank, found[rank][axis]);
+  };
+  team ? team->run(work) : work(0);
   std::vector<SheetFace> result;
   std::vector<Share> left_over;
-  for (int axis = 0; axis < 3; ++axis) Columns(axis, axes, surface, hem).faces(result, left_over);
-
-  // The rest, where the sheet is nearly parallel to an axis, is assigned to the face of its cell that is most
-  // nearly normal to it.
-  std::map<std::array<int, 3>, std::vector<std::size_t>> of_cell;
-  for (std::size_t n = 0; n < result.size(); ++n) {
-    const SheetFace& f = result[n];
-    std::array<int, 3> cell = {f.i, f.j, f.k};
-    of_cell[cell].push_back(n);
-    --cell[f.axis];
-    of_cell[cell].push_back(n);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const std::array<ColumnFaces, 3>& some : found) {
+      result.insert(result.end(), some[axis].faces.begin(), some[axis].faces.end());
+      left_over.insert(left_over.end(), some[axis].left_over.begin(), some[axis].left_over.end());
+    }
   }
-  for (const Share& share : left_over) {
-    const auto found = of_cell.find(share.cell);
-    if (found == of_cell.end()) continue;
-    const auto square = [&](std::size_t n) { return point_of(result[n].normal)[result[n].axis]; };
-    const std::size_t best =
-        *std::max_element(found->second.begin(), found->second.end(),
-                          [&](std::size_t a, std::size_t b) { return square(a) < square(b); });
-    result[best].area += share.area;
-  }
+  assign(left_over, axes, result);
   return result;
 }
 

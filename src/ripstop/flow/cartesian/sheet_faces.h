@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "ripstop/core/thread_team.h"
 #include "ripstop/flow/cartesian/grid.h"
 #include "ripstop/flow/flow.h"
 
@@ -33,8 +34,9 @@ struct SheetFace {
 /// where the sheet has ended, but not where it has bent out of the column.
 ///
 /// An element dA of the sheet with normal n is assigned to the faces across x, y and z in the shares n_x^2, n_y^2
-/// and n_z^2, sampled on those lines: flow along the normal crosses the faces in these shares.
+/// and n_z^2, sampled on those lines: flow along the normal crosses the faces in these shares. `team` shares the work;
+/// the faces do not depend on it.
 std::vector<SheetFace> sheet_faces(const Axis& x, const Axis& y, const Axis& z,
-                                   const std::vector<Triangle>& surface);
+                                   const std::vector<Triangle>& surface, ThreadTeam* team = nullptr);
 
 }  // namespace ripstop::inline flow::cartesian

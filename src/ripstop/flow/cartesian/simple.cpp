@@ -113,7 +113,8 @@ void Solver::start_from(const Solver& coarse) {
 
 void Solver::place(PorousRows porous, const std::vector<FlowBody>& bodies) {
   in_the_way_.porous = std::move(porous);
-  const SheetRows before = std::exchange(in_the_way_.sheets, SheetRows(d_.x, d_.y, d_.z, bodies, d_.quarter));
+  const SheetRows before =
+      std::exchange(in_the_way_.sheets, SheetRows(d_.x, d_.y, d_.z, bodies, d_.quarter, &team_));
   in_the_way_.sheets.begin(s_, d_.layout, before);
   if (s_.untouched) s_.eased = in_the_way_.sheets.empty() ? 0 : eased_iterations;
   in_the_way_.wall = {};
@@ -138,7 +139,7 @@ FlowProgress Solver::iterate() {
   if (!s_.rate_u.empty()) stop_the_clock(s_);
   SheetRows& sheets = in_the_way_.sheets;
   if (!sheets.empty()) {
-    if (in_the_way_.wall.empty()) in_the_way_.wall = sheets.distance(d_.x, d_.y, d_.z, d_.layout);
+    if (in_the_way_.wall.empty()) in_the_way_.wall = sheets.distance(d_.x, d_.y, d_.z, d_.layout, &team_);
     sheets.update(s_, d_.layout, d_.air.density * d_.air.speed());
   }
   team_.run([this](int rank) {

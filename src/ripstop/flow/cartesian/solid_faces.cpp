@@ -76,8 +76,9 @@ bool is_solid(const FlowBody& sheet) {
          hems(sheet.surface).empty();
 }
 
-std::vector<SheetFace> faces_of(const Axis& x, const Axis& y, const Axis& z, const FlowBody& sheet) {
-  std::vector<SheetFace> faces = sheet_faces(x, y, z, sheet.surface);
+std::vector<SheetFace> faces_of(const Axis& x, const Axis& y, const Axis& z, const FlowBody& sheet,
+                                ThreadTeam* team) {
+  std::vector<SheetFace> faces = sheet_faces(x, y, z, sheet.surface, team);
   if (!is_solid(sheet)) return faces;
   const std::vector<SheetFace> inside = faces_inside({&x, &y, &z}, faces);
   faces.insert(faces.end(), inside.begin(), inside.end());

@@ -15,6 +15,7 @@ namespace ripstop::inline flow::cartesian {
 /// Whether a sheet is the surface of a solid body.
 bool is_solid(const FlowBody& sheet);
 /// The faces that a sheet parts and, if it is solid, those inside.
-std::vector<SheetFace> faces_of(const Axis& x, const Axis& y, const Axis& z, const FlowBody& sheet);
+std::vector<SheetFace> faces_of(const Axis& x, const Axis& y, const Axis& z, const FlowBody& sheet,
+                                ThreadTeam* team = nullptr);
 
 }  // namespace ripstop::inline flow::cartesian

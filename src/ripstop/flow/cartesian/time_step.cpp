@@ -133,7 +133,7 @@ FlowStep Solver::step(double length) {
   SheetRows& sheets = in_the_way_.sheets;
   if (!sheets.empty()) sheets.update(s_, d_.layout, d_.air.density * d_.air.speed(), length);
   if (modelled() && !sheets.empty() && in_the_way_.wall.empty())
-    in_the_way_.wall = sheets.distance(d_.x, d_.y, d_.z, d_.layout);
+    in_the_way_.wall = sheets.distance(d_.x, d_.y, d_.z, d_.layout, &team_);
   const Vec3 velocity_before{s_.mean.u, s_.mean.v, s_.mean.w};
   const Vec3 brought_before = std::exchange(s_.clock.brought, momentum_carried_in(d_, b_, s_));
   const Vec3 held_in = pressed_in(d_, b_, s_, true);  // by pressures as the step has them

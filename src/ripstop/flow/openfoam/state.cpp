@@ -11,6 +11,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/hash.h"
+#include "ripstop/core/reasons.h"
 #include "ripstop/flow/boundaries.h"
 
 namespace ripstop::inline flow::openfoam {
@@ -169,7 +170,8 @@ SavedState read_state(const fs::path& folder) {
     }
     return state;
   } catch (const json::exception& error) {
-    throw Error(ExitCode::io, fmt::format("{} is damaged: {}", path.string(), error.what()));
+    throw Error(ExitCode::io, fmt::format("{} is damaged: {}; start again with --fresh", path.string(),
+                                          json_reason(error)));
   }
 }
 

@@ -26,8 +26,9 @@ std::string to_json(const Descent& descent) {
 
 CarryingRun carrying_run(const FinishedSteady& run) {
   require_one_canopy(run.resolved, "a descent, an export or an opening load");
-  return {run.folder,           run.resolved,     run.result.title,   "axial",           run.result.drag_area,
-          run.drag_uncertainty, run.result.speed, run.result.density, run.parachute_mass};
+  return {run.folder,           run.resolved,         run.result.title, "axial",
+          run.result.drag_area, run.drag_uncertainty, run.result.speed, run.result.density,
+          run.parachute_mass,   run.warnings};
 }
 
 CarryingRun carrying_run(const FinishedFlight& flight) {
@@ -40,7 +41,8 @@ CarryingRun carrying_run(const FinishedFlight& flight) {
           r.coefficient_error.value_or(0) / *r.coefficient,
           *r.descent,
           r.density,
-          r.parachute_mass};
+          r.parachute_mass,
+          flight.warnings};
 }
 
 CarryingRun carrying_run(const std::filesystem::path& folder) {
@@ -52,7 +54,7 @@ Descent run_descent(const CarryingRun& run, double payload_mass, const std::vect
   if (!(payload_mass > 0) || !std::isfinite(payload_mass))
     throw Error(ExitCode::usage, fmt::format("a payload of {:g} kg: must be above 0", payload_mass));
   Descent result;
-  result.title = run.title;
+  result.title = run.title, result.warnings = run.warnings;
   result.run = run.folder.string();
   result.basis = run.basis, result.drag_coefficient = run.drag_area / nominal_area(run.resolved.parachute());
   result.known_coefficient = experience(run.resolved.parachute()).drag_coefficient.if_known();

@@ -37,6 +37,7 @@ struct CarryingRun {
   double drag_area = 0, uncertainty = 0;  // [m2]; of it, relative
   double speed = 0, density = 0;          // [m/s], [kg/m3]
   double parachute_mass = 0;              // [kg]
+  std::vector<std::string> warnings = {};
 };
 CarryingRun carrying_run(const FinishedSteady& run);
 CarryingRun carrying_run(const FinishedFlight& flight);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "ripstop/case/payload.h"
 #include "ripstop/core/positive.h"
 #include "ripstop/run/descent/descent.h"
 #include "ripstop/run/json.h"
@@ -14,6 +15,25 @@
 #include "ripstop/run/steady/steady_folder.h"
 
 namespace ripstop::inline run {
+namespace {
+
+/// The speed of a run with a payload is its rate of descent, at which no parachute is deployed.
+void take_deployment_speed(const FinishedSteady& run, const std::optional<double>& given,
+                           ExportedParachute& p) {
+  p.speed_assumed = !given && run.resolved.payload().mass_kg;
+  p.deployment_speed = given             ? *given
+                       : p.speed_assumed ? usual_deployment_speed(run.result.speed)
+                                         : run.result.speed;
+  p.deployment_speed_from = given ? "given" : "speed of the run";
+  if (p.speed_assumed)
+    p.deployment_speed_from =
+        fmt::format("assumed, 20 m/s or three times the rate of descent of {:.3g} m/s, as ripstop size",
+                    run.result.speed);
+  require_positive("deployment speed (m/s)", p.deployment_speed);
+}
+
+}  // namespace
+
 std::string to_json(const ExportedParachute& parachute) {
   return json_text(parachute);
 }
@@ -25,9 +45,8 @@ std::string to_json(const ExportedRecovery& recovery) {
 ExportedParachute exported(const FinishedSteady& run, std::optional<double> deployment_speed,
                            const std::optional<FinishedFlight>& flight) {
   const Design& design = run.resolved.parachute();
-  const double speed = deployment_speed.value_or(run.result.speed);
-  require_positive("deployment speed (m/s)", speed);
   ExportedParachute p;
+  take_deployment_speed(run, deployment_speed, p);
   p.title = run.result.title, p.run = run.folder.string();
   if (flight) require_same_parachute(flight->resolved, flight->folder.string(), run.resolved);
   const CarryingRun carries = flight ? carrying_run(*flight) : carrying_run(run);
@@ -42,9 +61,10 @@ ExportedParachute exported(const FinishedSteady& run, std::optional<double> depl
   p.radius = run.result.size.projected_diameter / 2, p.height = run.result.size.length;
   p.porosity = facts(design).geometric_porosity();
   const KnownFilling filling = known_filling(design.canopy.family().type);
-  const double constant = filling_constant_at(filling.constant, speed);
-  p.lag = constant * p.nominal_diameter / speed;
-  p.lag_from = fmt::format("filling distance {:.3g} D0 at {:.3g} m/s: {}", constant, speed, filling.source);
+  const double constant = filling_constant_at(filling.constant, p.deployment_speed);
+  p.lag = constant * p.nominal_diameter / p.deployment_speed;
+  p.lag_from = fmt::format("filling distance {:.3g} D0 at {:.3g} m/s ({}): {}", constant, p.deployment_speed,
+                           p.deployment_speed_from, filling.source);
   p.lag_deviation = lag_scatter * p.lag;
   p.mass = run.parachute_mass;
   p.gores = design.gores, p.line_count = design.lines.count, p.line_length = design.lines.length_m;
@@ -54,6 +74,8 @@ ExportedParachute exported(const FinishedSteady& run, std::optional<double> depl
   p.packed_volume = run_pattern(run.resolved, {}, packed_by_hand).bill.packed_volume;
   p.packed_diameter = std::cbrt(2 * p.packed_volume / std::numbers::pi);
   p.packed_length = 2 * p.packed_diameter;
+  p.warnings = run.warnings;
+  if (flight) p.warnings.insert(p.warnings.end(), flight->warnings.begin(), flight->warnings.end());
   return p;
 }
 

@@ -24,7 +24,10 @@ struct ExportedParachute {
   std::optional<std::array<double, 2>> known_coefficient;  // the handbook's range, in descent
   double radius = 0, height = 0;  // of the open canopy, half the projected diameter and skirt to crown [m]
   double porosity = 0;            // open share of the surface as constructed
-  double lag = 0;                 // from the trigger to the full drag area [s]
+  double deployment_speed = 0;    // for the lag [m/s]
+  std::string deployment_speed_from;
+  bool speed_assumed = false;  // not in result.json
+  double lag = 0;              // from the trigger to the full drag area [s]
   std::string lag_from;
   double lag_deviation = 0;  // standard deviation [s]
   double mass = 0;           // [kg]
@@ -32,7 +35,8 @@ struct ExportedParachute {
   double line_length = 0, line_density = 0, cloth_density = 0;  // [m], [kg/m], [kg/m2]
   std::string line_material, cloth_material;
   double packed_volume = 0, packed_diameter = 0,
-         packed_length = 0;  // [m3], [m], [m]: a cylinder twice as long as wide
+         packed_length = 0;                // [m3], [m], [m]: a cylinder twice as long as wide
+  std::vector<std::string> warnings = {};  // of run and flight
 };
 template <Of<ExportedParachute> T, class Visit>
 void each_member(T& p, Visit&& visit) {
@@ -50,6 +54,8 @@ void each_member(T& p, Visit&& visit) {
   visit("radius_m", p.radius);
   visit("height_m", p.height);
   visit("porosity", p.porosity);
+  visit("deployment_speed_m_s", p.deployment_speed);
+  visit("deployment_speed_from", p.deployment_speed_from);
   visit("lag_s", p.lag);
   visit("lag_from", p.lag_from);
   visit("lag_deviation_s", p.lag_deviation);
@@ -64,10 +70,12 @@ void each_member(T& p, Visit&& visit) {
   visit("packed_volume_m3", p.packed_volume);
   visit("packed_diameter_m", p.packed_diameter);
   visit("packed_length_m", p.packed_length);
+  visit("warnings", p.warnings);
 }
 std::string to_json(const ExportedParachute& parachute);
 
-/// `deployment_speed` [m/s], for the filling time n D0 / v; absent: the run's own speed. The drag area is that of the run,
+/// `deployment_speed` [m/s], for the filling time n D0 / v; absent: the run's own speed, or of a run that has computed its
+/// rate of descent usual_deployment_speed(), for which `ripstop size` designs. The drag area is that of the run,
 /// or of a `flight` of the same parachute. Throws Error(usage) for the flight of another one.
 ExportedParachute exported(const FinishedSteady& run, std::optional<double> deployment_speed = {},
                            const std::optional<FinishedFlight>& flight = {});

@@ -79,13 +79,17 @@ std::string stage_name(const ExportedRecovery& recovery, std::size_t i) {
 
 std::string comment_of(const ExportedStage& stage, const std::string& name) {
   const ExportedParachute& p = stage.parachute;
+  std::string warnings;
+  for (const std::string& text : p.warnings) warnings += "# Warning: " + literal(text) + "\n";
   return fmt::format(
-      "# {}: drag area {:.4f} +- {:.4f} m2 (numerical uncertainty of the run). Lag: {}.\n"
-      "# Reference area of drag_coefficient: pi radius^2 = {:.4f} m2, as RocketPy defines it. On the nominal "
-      "area\n# S0 = {:.4f} m2 the drag coefficient of the open canopy is C_D = {:.4f}.\n"
-      "# This coefficient is {}.\n",
-      literal(name), p.drag_area, p.drag_area_uncertainty, p.lag_from, std::numbers::pi * p.radius * p.radius,
-      p.nominal_area, p.drag_coefficient, basis_text(p));
+             "# {}: drag area {:.4f} +- {:.4f} m2 (numerical uncertainty of the run). Lag: {}.\n"
+             "# Reference area of drag_coefficient: pi radius^2 = {:.4f} m2, as RocketPy defines it. On the "
+             "nominal "
+             "area\n# S0 = {:.4f} m2 the drag coefficient of the open canopy is C_D = {:.4f}.\n"
+             "# This coefficient is {}.\n",
+             literal(name), p.drag_area, p.drag_area_uncertainty, p.lag_from,
+             std::numbers::pi * p.radius * p.radius, p.nominal_area, p.drag_coefficient, basis_text(p)) +
+         warnings;
 }
 
 // RocketPy passes no time to a trigger, and calls it once or twice per sample (time_overshoot). The time therefore follows
@@ -168,6 +172,7 @@ std::string device_text(const ExportedStage& stage, const Part& part) {
   const std::optional<double> height = trigger_height(stage.trigger);
   return fmt::format(
       "                <parachute>\n                  <name>{}</name>\n"
+      "                  <comment>Delay: {}</comment>\n"
       "                  <overridemass>{}</overridemass>\n"
       "                  <packedlength>{}</packedlength>\n                  <packedradius>{}</packedradius>\n"
       "                  <cd>{}</cd>\n                  <material type=\"surface\" "
@@ -177,9 +182,9 @@ std::string device_text(const ExportedStage& stage, const Part& part) {
       "                  <linecount>{}</linecount>\n                  <linelength>{}</linelength>\n"
       "                  <linematerial type=\"line\" density=\"{}\">{}</linematerial>\n"
       "                </parachute>\n",
-      escaped_markup(part.name), part.after > 0 ? 0 : p.mass, p.packed_length, p.packed_diameter / 2,
-      part.added * p.drag_coefficient, p.cloth_density, escaped_markup(p.cloth_material),
-      height ? "altitude" : "apogee",
+      escaped_markup(part.name), escaped_markup(p.lag_from), part.after > 0 ? 0 : p.mass, p.packed_length,
+      p.packed_diameter / 2, part.added * p.drag_coefficient, p.cloth_density,
+      escaped_markup(p.cloth_material), height ? "altitude" : "apogee",
       height ? fmt::format("                  <deployaltitude>{}</deployaltitude>\n", *height) : "",
       part.after + part.lag, p.nominal_diameter, p.line_count, p.line_length, p.line_density,
       escaped_markup(p.line_material));

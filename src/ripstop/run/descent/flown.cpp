@@ -8,6 +8,7 @@
 #include "ripstop/core/build_info.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
+#include "ripstop/core/reasons.h"
 
 namespace ripstop::inline run {
 namespace {
@@ -26,7 +27,7 @@ std::vector<FlownDrag> read_flown_drags() {
     return all;
   } catch (const nlohmann::json::exception& error) {
     throw Error(ExitCode::bad_data,
-                fmt::format("{}: not the table of flights: {}", file.string(), error.what()));
+                fmt::format("{}: not the table of flights: {}", file.string(), json_reason(error)));
   }
 }
 

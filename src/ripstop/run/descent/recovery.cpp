@@ -23,8 +23,11 @@
 #include "ripstop/output/csv.h"
 #include "ripstop/output/plot.h"
 #include "ripstop/run/json.h"
+#include "ripstop/run/opening/snatch.h"
 #include "ripstop/run/report/report.h"
 #include "ripstop/run/report/report_tables.h"
+#include "ripstop/run/steady/warnings.h"
+#include "ripstop/run/used_run.h"
 
 namespace ripstop::inline run {
 namespace {
@@ -74,8 +77,8 @@ void check_recovery(const RecoveryRequest& q, bool two_stages) {
 }
 
 /// Opening of a canopy at a state of the flight, of the whole mass [kg].
-LoadResult opening_load(const RecoveryCanopy& canopy, double drag_coefficient, const FlightState& state,
-                        double mass, const RecoveryRequest& request) {
+LoadRequest opening_of(const RecoveryCanopy& canopy, double drag_coefficient, const FlightState& state,
+                       double mass, const RecoveryRequest& request) {
   LoadRequest asked;
   asked.payload_mass = mass - canopy.mass;
   asked.speed = state.speed, asked.height = state.height, asked.ground = request.ground;
@@ -83,10 +86,10 @@ LoadResult opening_load(const RecoveryCanopy& canopy, double drag_coefficient, c
   asked.drag_coefficient = drag_coefficient;
   asked.descent = false;
   // Slower than it will descend, as soon after apogee: methods without gravity; the trajectory has the weight.
-  if (state.speed <=
-      1.001 * slowest_opening(mass, drag_coefficient * canopy.area, state.height, asked.path_angle))
+  if (state.speed <= 1.001 * slowest_opening(mass, drag_coefficient * canopy.area,
+                                             standard_air(state.height).density, asked.path_angle))
     asked.path_angle = 0;
-  return run_load(canopy.resolved, asked);
+  return asked;
 }
 
 class RecoveryFlight {
@@ -116,7 +119,8 @@ class RecoveryFlight {
  private:
   void fly_stage(std::size_t i) {
     const RecoveryCanopy& canopy = canopies_[i];
-    FlownStage stage{state_, opening_load(canopy, drag_at(end_, canopy), state_, mass_, request_)};
+    FlownStage stage{state_, run_load(canopy.resolved,
+                                      opening_of(canopy, drag_at(end_, canopy), state_, mass_, request_))};
     ++open_;
     const StageLoads& opening = stage.load.stages.front();
     const double others = body_area_ + (request_.drogue_released ? 0 : before_);
@@ -175,10 +179,15 @@ Ranged ranged(const std::vector<Flown>& flights, Of3&& of) {
   return {a, std::min({a, b, c}), std::max({a, b, c})};
 }
 
-/// With the coefficient at one end of its range, at the speed of the flight that is slowest or fastest there; at least
-/// the largest force on the canopy of any flight, or at the low end the smallest of them.
-double design_load_at(DragEnd end, const RecoveryCanopy& canopy, std::size_t i,
-                      const std::vector<Flown>& flights, const RecoveryRequest& request) {
+struct EndLoads {
+  double design = 0;             // [N]
+  std::optional<double> snatch;  // of [deployment] [N]
+};
+
+/// With the coefficient at one end of its range, at the speed of the flight that is slowest or fastest there; the design
+/// load is at least the largest force on the canopy of any flight, or at the low end the smallest of them.
+EndLoads loads_at(DragEnd end, const RecoveryCanopy& canopy, std::size_t i, const std::vector<Flown>& flights,
+                  const RecoveryRequest& request) {
   const bool high = end == DragEnd::high;
   const auto faster = [&](const Flown& a, const Flown& b) {
     return a.stages[i].opening.speed < b.stages[i].opening.speed;
@@ -189,7 +198,12 @@ double design_load_at(DragEnd end, const RecoveryCanopy& canopy, std::size_t i,
   double peak = stage.peak_force;
   for (const Flown& flown : flights)
     peak = high ? std::max(peak, flown.stages[i].peak_force) : std::min(peak, flown.stages[i].peak_force);
-  return std::max(peak, opening_load(canopy, drag_at(end, canopy), stage.opening, mass, request).design_load);
+  const LoadRequest asked = opening_of(canopy, drag_at(end, canopy), stage.opening, mass, request);
+  const LoadResult load = run_load(canopy.resolved, asked);
+  EndLoads loads{std::max(peak, load.design_load), {}};
+  if (!high) return loads;
+  if (const auto snatch = snatch_of(canopy.resolved, asked, load)) loads.snatch = snatch->load;
+  return loads;
 }
 
 RecoveryStage stage_of(const RecoveryCanopy& canopy, std::size_t i, const std::vector<Flown>& flights,
@@ -202,17 +216,19 @@ RecoveryStage stage_of(const RecoveryCanopy& canopy, std::size_t i, const std::v
   s.drag_source = canopy.drag.from, s.drag_basis = canopy.drag.basis, s.reference_area = canopy.area;
   s.descent_drag = canopy.range;
   s.time = flown.opening.time, s.height = flown.opening.height - request.ground;
-  s.path_angle = flown.opening.path_angle;
+  s.path_angle = flown.opening.path_angle, s.density = load.density;
   s.speed = ranged(flights, [&](const Flown& f) { return f.stages[i].opening.speed; });
   s.filling_time = load.stages.front().filling_time;
   s.lowest_load = load.stages.front().lowest, s.highest_load = load.stages.front().highest;
   s.design_load = load.design_load, s.design_load_from = load.design_load_from;
   if (flown.peak_force > s.design_load)
     s.design_load = flown.peak_force, s.design_load_from = "largest force of the trajectory";
-  s.least_design_load = design_load_at(DragEnd::low, canopy, i, flights, request);
-  s.largest_design_load = design_load_at(DragEnd::high, canopy, i, flights, request);
-  s.margins = load_margins(canopy.resolved, s.design_load);
-  s.hardware = hardware_need(s.design_load, canopy.resolved.margins());
+  const EndLoads high = loads_at(DragEnd::high, canopy, i, flights, request);
+  s.least_design_load = loads_at(DragEnd::low, canopy, i, flights, request).design;
+  s.largest_design_load = high.design, s.snatch_load = high.snatch;
+  const double required = std::max(high.design, high.snatch.value_or(0));
+  s.margins = load_margins(canopy.resolved, high.design, high.snatch.value_or(0));
+  s.hardware = hardware_need(required, canopy.resolved.margins());
   LoadRequest asked;
   asked.payload_mass = load.payload_mass, asked.height = load.height, asked.ground = request.ground;
   asked.path_angle = std::max(flown.opening.path_angle, 0.0);
@@ -225,6 +241,8 @@ RecoveryStage stage_of(const RecoveryCanopy& canopy, std::size_t i, const std::v
   s.packed_volume = parachute_bill(canopy.resolved, {}, request.packing_density).packed_volume;
   if (request.bay_diameter)
     s.bay_length = s.packed_volume / (std::numbers::pi / 4 * *request.bay_diameter * *request.bay_diameter);
+  for (const std::string& text : strain_warnings(canopy.resolved, 0))
+    warnings.push_back(fmt::format("{}: {}", canopy.name, text));
   for (const std::string& text : margin_warnings(s.margins))
     warnings.push_back(fmt::format("{}: {}", canopy.name, text));
   for (const std::string& text :
@@ -277,6 +295,7 @@ RecoveryResult run_recovery(const Settings& main, const std::optional<Settings>&
   for (const DragEnd end : {DragEnd::nominal, DragEnd::low, DragEnd::high})
     flights.push_back(RecoveryFlight(canopies, request, wind, body, end).fly_down());
   RecoveryResult r;
+  r.warnings = warnings_of_used({request.drogue_steady, request.main_steady});
   r.title = main.title(), r.mass = r.total_mass = request.mass;
   for (const RecoveryCanopy& canopy : canopies) r.total_mass += canopy.mass;
   if (const double all = std::accumulate(request.sections.begin(), request.sections.end(), 0.0);

@@ -51,14 +51,16 @@ struct RecoveryStage {
   DescentDrag descent_drag;                                               // range in descent
   double time = 0, height = 0,
          path_angle = 0;    // of the opening [s], above the ground [m], below the horizon [deg]
+  double density = 0;       // there, of the standard atmosphere [kg/m3]
   Ranged speed;             // through the air at the opening [m/s]
   double filling_time = 0;  // [s]
   double lowest_load = 0, highest_load = 0;               // of the methods that apply [N]
   double design_load = 0;                                 // [N]
   double least_design_load = 0, largest_design_load = 0;  // with the ranges of drag and speed [N]
   std::string design_load_from;
-  HardwareNeed hardware;             // under the design load
-  std::optional<Margins> margins;    // under the design load
+  std::optional<double> snatch_load;  // by [deployment] of the case, at the highest speed [N]
+  HardwareNeed hardware;             // under the largest design load, or the snatch load where that is larger
+  std::optional<Margins> margins;    // the same
   SafeSpeed safe;                    // fastest safe deployment by the method of the design load
   Ranged descent_rate;               // at the end [m/s]
   Ranged duration, drift;            // [s], with the wind [m]
@@ -81,6 +83,7 @@ void each_member(T& s, Visit&& visit) {
   visit("time_s", s.time);
   visit("height_m", s.height);
   visit("path_angle_deg", s.path_angle);
+  visit("density_kg_m3", s.density);
   visit("speed_m_s", s.speed);
   visit("filling_time_s", s.filling_time);
   visit("lowest_load_n", s.lowest_load);
@@ -89,6 +92,7 @@ void each_member(T& s, Visit&& visit) {
   visit("lowest_design_load_n", s.least_design_load);
   visit("highest_design_load_n", s.largest_design_load);
   visit("design_load_from", s.design_load_from);
+  visit("snatch_load_n", s.snatch_load);
   visit("required_hardware", s.hardware);
   visit("margins", s.margins);
   visit("fastest_safe_deployment", s.safe);

@@ -6,6 +6,7 @@
 #include "ripstop/run/json.h"
 #include "ripstop/run/run_folder.h"
 #include "ripstop/run/steady/steady_folder.h"
+#include "ripstop/run/used_run.h"
 
 namespace ripstop::inline run {
 
@@ -17,7 +18,11 @@ bool holds_flight(const std::filesystem::path& folder) {
 
 FinishedFlight finished_flight(const std::filesystem::path& folder) {
   if (!holds_flight(folder))
-    throw Error(ExitCode::usage, fmt::format("{}: contains no finished run of ripstop fly", folder.string()));
+    throw Error(
+        ExitCode::usage,
+        fmt::format(
+            "{0}: contains no finished run of ripstop fly; compute one with: ripstop fly CASE --out {0}",
+            folder.string()));
   FinishedFlight flight{folder, settings_of_run(folder),
                         from_json_text<FlightResult>(*finished_result(folder), "the result of a flight")};
   if (!flight.result.coefficient || !flight.result.descent)
@@ -25,6 +30,7 @@ FinishedFlight finished_flight(const std::filesystem::path& folder) {
                 fmt::format("{}: the flight has no coefficient in descent: {}; fly again with another start "
                             "or parachute",
                             folder.string(), flight.result.ended_by));
+  flight.warnings = warnings_of_used({folder});
   return flight;
 }
 

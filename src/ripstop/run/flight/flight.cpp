@@ -10,6 +10,7 @@
 
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/bodies.h"
+#include "ripstop/case/opening.h"
 #include "ripstop/case/payload.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
@@ -21,6 +22,7 @@
 #include "ripstop/run/quality.h"
 #include "ripstop/run/steady/steady_folder.h"
 #include "ripstop/run/steady/warnings.h"
+#include "ripstop/run/used_run.h"
 
 namespace ripstop::inline run {
 namespace {
@@ -78,19 +80,27 @@ struct Beginning {
   fs::path flow;
 };
 
+/// The folder of the inflation from whose end a flight continues: `from`, or where the flight computes it first; empty:
+/// it starts in equilibrium.
+RunSettings inflation_run(const Settings& resolved, const fs::path& from, const fs::path& temporary,
+                          FlightObserver& observer) {
+  if (!from.empty()) return {from};
+  if (resolved.flight().start != FlightSettings::Start::inflation) return {};
+  RunSettings run = observer.opening_run();
+  if (run.folder.empty()) run.folder = temporary;
+  return run;
+}
+
 /// Computes the inflation first where `from` is empty.
-Beginning end_of_inflation(const Settings& resolved, int threads, fs::path from, const fs::path& temporary,
-                           FlightObserver& observer) {
+Beginning end_of_inflation(const Settings& resolved, int threads, const fs::path& from,
+                           const RunSettings& run, FlightObserver& observer) {
   if (from.empty()) {
-    RunSettings run = observer.opening_run();
-    if (run.folder.empty()) run.folder = temporary;
-    from = run.folder;
     const LoadSource source = load_source(resolved);
     run_inflation_in(
         {run, threads}, resolved, source, [&] { return opening_problem(resolved, source, threads); },
         observer.opening());
   }
-  FinishedOpening opening = finished_opening(from);
+  FinishedOpening opening = finished_opening(run.folder);
   Beginning begin;
   const FlowProblem flow = flow_problem(resolved);
   begin.start.same_flow = flow.grid == opening.flow.grid && flow.sides == opening.flow.sides &&
@@ -143,6 +153,7 @@ void take_means(FlightResult& r, const FlightSummary& s) {
 void take_quality(FlightResult& r, const Settings& resolved) {
   Judgement judgement = judge({{"flight_energy_residual", std::abs(r.energy_residual)},
                                {"flight_momentum_residual", r.momentum_residual},
+                               {"mass_defect", r.mass_defect},
                                {"cells_across", r.cells_across}});
   judgement.add(margin_warnings(r.margins));
   judgement.add(mesh_warnings(resolved));
@@ -189,6 +200,7 @@ FlightResult result_of(const Settings& resolved, const FreeFlight& flight, const
   const FreeFlightRow &last = history.rows.back(), &first = history.rows.front();
   r.title = resolved.title(), r.ended_by = ended_by, r.duration = last.time - flight.began();
   r.payload_mass = *resolved.payload().mass_kg, r.parachute_mass = flight.mass() - r.payload_mass;
+  r.air_source = opening_air(resolved).from;
   r.density = resolved.flow().density_kg_m3, r.reference_area = nominal_area(resolved.parachute());
   if (!start.opening) r.axial_speed = start.speed, r.axial_coefficient = start.coefficient;
   r.known_coefficient = experience(resolved.parachute()).drag_coefficient.if_known();
@@ -203,7 +215,8 @@ FlightResult result_of(const Settings& resolved, const FreeFlight& flight, const
   r.energy_residual = balance.energy_residual, r.momentum_residual = balance.momentum_residual;
   const double weight = flight.mass() * standard_gravity;
   for (const FreeFlightRow& row : history.rows)
-    r.air_momentum_residual = std::max(r.air_momentum_residual, row.momentum_gap / weight);
+    r.air_momentum_residual = std::max(r.air_momentum_residual, row.momentum_gap / weight),
+    r.mass_defect = std::max(r.mass_defect, row.mass_defect);
   r.cells_across = cells_across(resolved);
   r.stress = state.coupled.highest_stress;
   r.margins = case_margins(resolved, flight.mesh(), state.coupled.record.peak_tension, r.stress);
@@ -212,6 +225,12 @@ FlightResult result_of(const Settings& resolved, const FreeFlight& flight, const
   if (!start.opening)
     if (const auto warning = mouth_warning(history.rows)) r.warnings.push_back(*warning);
   return r;
+}
+
+/// A flight after an inflation that must not be used must not be used either.
+void take_end(const RunEnd& inflation, FlightResult& r) {
+  add_warnings_of(inflation, r.warnings);
+  r.usable = r.usable && inflation.usable;
 }
 
 /// Keeps the highest stress of all shapes, and some shapes for the contact sheet.
@@ -261,6 +280,7 @@ Settings flight_settings(const Case& given, const fs::path& from) {
   };
   if (from.empty()) return alone(resolve(flight_case(given)));
   const Settings opening = settings_of_run(from);
+  warnings_of_used({from});
   Case folded = given;
   if (folded.inflation.folds == 0 && !folded.inflation.initial_radius_m)
     folded.inflation.folds = opening.inflation().folds;  // that of a closed mouth
@@ -273,11 +293,12 @@ FlightSolution run_flight(const Settings& resolved, int threads, FlightObserver&
   require_payload(resolved);
   const TemporaryFolder temporary("flight");
   const std::optional<FlightStart> earlier = observer.earlier_start();
+  const RunSettings inflation = inflation_run(resolved, from, temporary.path / "opening", observer);
   Beginning begin;
   if (earlier)
     begin.start = *earlier;
-  else if (!from.empty() || resolved.flight().start == FlightSettings::Start::inflation)
-    begin = end_of_inflation(resolved, threads, from, temporary.path / "opening", observer);
+  else if (!inflation.folder.empty())
+    begin = end_of_inflation(resolved, threads, from, inflation, observer);
   else
     begin = {equilibrium_on_axis(resolved, threads, temporary.path, observer), temporary.path};
   const FlightStart& start = begin.start;
@@ -307,6 +328,7 @@ FlightSolution run_flight(const Settings& resolved, int threads, FlightObserver&
     observer.advanced(flight, state, history, shape);
   }
   result = result_of(now, flight, start, state, history, ended_by);
+  if (!inflation.folder.empty()) take_end(end_of_run(inflation.folder), result);
   observer.ended(flight, state, history, result);
   return solution;
 }

@@ -68,11 +68,13 @@ struct FlightResult {
   std::optional<Handover> handover;  // from an inflation
   double reference_area = 0;         // S0 [m2]
   double density = 0;                // at the start [kg/m3]
-  double largest_load = 0;           // of the lines on the payload [N]
-  double load_factor = 0;            // that over the payload's weight
+  std::optional<std::string> air_source;              // absent in results of earlier versions
+  double largest_load = 0;                            // of the lines on the payload [N]
+  double load_factor = 0;                             // that over the payload's weight
   double distance = 0, height_lost = 0;               // of the payload over the ground [m]
   double energy_residual = 0, momentum_residual = 0;  // of the whole flight
   double air_momentum_residual = 0;  // largest momentum gap of a step of the air over the weight
+  double mass_defect = 0;            // largest of a step of the air
   double cells_across = 0;           // of the inflated canopy
   StressPeak stress;                 // highest of all shapes
   std::optional<Margins> margins;
@@ -111,6 +113,7 @@ void each_member(T& r, Visit&& visit) {
   visit("axial_drag_coefficient", r.axial_coefficient);
   visit("reference_area_m2", r.reference_area);
   visit("density_kg_m3", r.density);
+  visit("air_from", r.air_source);
   visit("largest_line_force_n", r.largest_load);
   visit("load_factor", r.load_factor);
   visit("distance_m", r.distance);
@@ -118,6 +121,7 @@ void each_member(T& r, Visit&& visit) {
   visit("energy_residual", r.energy_residual);
   visit("momentum_residual", r.momentum_residual);
   visit("air_momentum_residual", r.air_momentum_residual);
+  visit("mass_defect", r.mass_defect);
   visit("cells_across", r.cells_across);
   visit("max_von_mises_n_m", r.stress.von_mises);
   visit("max_von_mises_on", r.stress.patch);

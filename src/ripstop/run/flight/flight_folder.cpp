@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Of the list of members of FreeFlightState: one more with every change of it.
-constexpr int flight_format = 3;
+constexpr int flight_format = 4;
 constexpr const char* what_is_saved = "a checkpoint of a flight";
 
 /// Writes every file of the flight before it calls the next observer.

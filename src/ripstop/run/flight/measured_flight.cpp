@@ -80,6 +80,7 @@ void find_mass(const Settings& resolved, const MeasuredFlightRequest& request, M
 
 void compare_with(const std::filesystem::path& folder, MeasuredFlight& f) {
   const FinishedSteady run = finished_steady(folder);
+  f.warnings.insert(f.warnings.end(), run.warnings.begin(), run.warnings.end());
   FlightComparison c;
   c.run = folder.string(), c.drag_area = run.result.drag_area;
   c.drag_area_uncertainty = run.drag_uncertainty * c.drag_area;
@@ -191,6 +192,7 @@ void write_measured_flight(const std::filesystem::path& folder, const MeasuredFl
     run.plots.push_back(
         shown(areas, "drag_area", "Drag area", {"height above ground", "m"}, {"drag area", "m²"}));
   run.warnings = flight.notes;
+  run.warnings.insert(run.warnings.end(), flight.warnings.begin(), flight.warnings.end());
   write_file(folder / report_name, report_page(report_on({std::move(run)}, flight.title)));
 }
 

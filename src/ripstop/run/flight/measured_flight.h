@@ -55,7 +55,8 @@ struct MeasuredFlight {
   std::vector<DragAreaAtHeight> drag_areas;
   std::vector<FlightComparison> computed;
   std::vector<std::string> notes;
-  SensorRecord height;  // not in result.json
+  std::vector<std::string> warnings;  // of the runs
+  SensorRecord height;                // not in result.json
 };
 template <Of<MeasuredFlight> T, class Visit>
 void each_member(T& f, Visit&& visit) {
@@ -72,6 +73,7 @@ void each_member(T& f, Visit&& visit) {
   visit("drag_areas", f.drag_areas);
   visit("computed", f.computed);
   visit("notes", f.notes);
+  visit("warnings", f.warnings);
 }
 std::string to_json(const MeasuredFlight& flight);
 

@@ -9,6 +9,7 @@
 #include "ripstop/output/plot.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/steady/steady_folder.h"
+#include "ripstop/run/used_run.h"
 
 namespace ripstop::inline run {
 namespace {
@@ -67,9 +68,9 @@ ComputedCanopy computed_canopy(const Settings& resolved, const std::vector<Vec3>
 }
 
 ComputedCanopy computed_canopy(const std::filesystem::path& run) {
-  finished_result(run);  // throws where anything of it was lost or changed
+  const std::vector<std::string> warnings = warnings_of_used({run});  // throws where anything of it was lost
   ComputedCanopy canopy = computed_canopy(settings_of_run(run), final_state(run).shape);
-  canopy.run = run.string();
+  canopy.run = run.string(), canopy.warnings = warnings;
   return canopy;
 }
 
@@ -93,7 +94,7 @@ Photogrammetry run_photogrammetry(const std::optional<Image>& image,
     result.title = canopy->title;
     if (!canopy->run.empty()) result.run = canopy->run;
     result.computed = canopy->sizes;
-    result.profile = canopy->profile;
+    result.profile = canopy->profile, result.warnings = canopy->warnings;
   }
   return result;
 }

@@ -24,9 +24,10 @@ void each_member(T& ring, Visit&& visit) {
 
 /// A computed canopy as a camera would see it.
 struct ComputedCanopy {
-  std::string title, run;               // where it was computed; empty: in memory
-  std::vector<ProfileRing> profile;     // patch after patch
-  std::map<std::string, double> sizes;  // [m]
+  std::string title, run;                  // where it was computed; empty: in memory
+  std::vector<ProfileRing> profile;        // patch after patch
+  std::map<std::string, double> sizes;     // [m]
+  std::vector<std::string> warnings = {};  // of its run
 };
 ComputedCanopy computed_canopy(const Settings& resolved, const std::vector<Vec3>& shape);
 /// Of the folder of a finished steady run. Throws Error(usage).
@@ -57,6 +58,7 @@ struct Photogrammetry {
   std::optional<std::string> run;
   std::optional<std::map<std::string, double>> computed;  // [m]
   std::optional<std::vector<ProfileRing>> profile;
+  std::vector<std::string> warnings;
 };
 template <Of<Photogrammetry> T, class Visit>
 void each_member(T& p, Visit&& visit) {
@@ -68,6 +70,7 @@ void each_member(T& p, Visit&& visit) {
   visit("run", p.run);
   visit("computed_m", p.computed);
   visit("profile", p.profile);
+  visit("warnings", p.warnings);
 }
 std::string to_json(const Photogrammetry& result);
 

@@ -36,7 +36,7 @@ DampingResult run_damping(const Settings& resolved, const LoadSource& source, co
       result.target, search, [&](double damping) { return open_with(damping, problem, alive); }, report);
   result.low_pass_hz = problem.settings.low_pass_hz;
   result.pressure = problem.pressure;
-  result.pressure_from = source.text;
+  result.pressure_from = source.text, result.warnings = source.warnings;
   result.nodes = problem.mesh.node_count();
   return result;
 }

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "ripstop/calibration/damping.h"
 #include "ripstop/case/settings.h"
@@ -33,6 +34,7 @@ struct DampingResult {
   double pressure = 0;  // [Pa]
   std::string pressure_from;
   int nodes = 0;
+  std::vector<std::string> warnings;  // of the steady run that gives the pressure
 };
 template <Of<DampingResult> T, class Visit>
 void each_member(T& r, Visit&& visit) {
@@ -51,6 +53,7 @@ void each_member(T& r, Visit&& visit) {
   visit("nodes", r.nodes);
   visit("best_is_at_the_edge", r.found.at_edge);
   visit("trials", r.found.trials);
+  visit("warnings", r.warnings);
 }
 std::string to_json(const DampingResult& result);
 

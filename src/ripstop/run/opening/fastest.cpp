@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -11,8 +12,10 @@
 #include "ripstop/core/claimed_folder.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
+#include "ripstop/core/words.h"
 #include "ripstop/run/json.h"
-#include "ripstop/run/opening/handbook.h"
+#include "ripstop/run/steady/warnings.h"
+#include "ripstop/run/used_run.h"
 
 namespace ripstop::inline run {
 namespace {
@@ -37,9 +40,36 @@ class LoadsAtSpeed {
     return results_.emplace(speed, run_load(resolved_, asked)).first->second;
   }
 
+  /// Infinite at a speed at which lines or riser break; nothing where no speed difference is known.
+  std::optional<SnatchResult> snatch(double speed) const {
+    LoadRequest asked = request_;
+    asked.speed = speed;
+    try {
+      return snatch_of(resolved_, asked, at(speed));
+    } catch (const Error& error) {
+      if (error.code() != ExitCode::usage) throw;
+      SnatchResult broken;
+      broken.load = std::numeric_limits<double>::infinity();
+      return broken;
+    }
+  }
+  /// Throws where lines or riser break, or payload and canopy do not part, at the slowest deployment.
+  void require_snatch(double slowest) const {
+    LoadRequest asked = request_;
+    asked.speed = slowest;
+    snatch_of(resolved_, asked, at(slowest));
+  }
+  double snatch_load(double speed) const {
+    const auto known = snatches_.find(speed);
+    if (known != snatches_.end()) return known->second;
+    const auto found = snatch(speed);
+    return snatches_.emplace(speed, found ? found->largest() : 0).first->second;
+  }
+
  private:
   const Settings& resolved_;
   LoadRequest request_;
+  mutable std::map<double, double> snatches_;
   mutable std::map<double, LoadResult> results_;
 };
 
@@ -72,26 +102,28 @@ std::optional<double> largest_speed(double low, Keeps&& keeps) {
 
 SafeSpeed safe_speed(const Settings& resolved, const LoadsAtSpeed& loads, const std::string& method,
                      double slowest, const FastestResult& r) {
-  const auto least = [&](double load) { return *weakest(load_margins(resolved, load)); };
+  const auto least = [&](double load, double speed) {
+    return *weakest(load_margins(resolved, load, loads.snatch_load(speed)));
+  };
   const auto speed_with = [&](double factor) {
     return largest_speed(slowest, [&](double speed) {
-      return *least(factor * peak_of(loads.at(speed), method).load).margin >= r.margin;
+      return *least(factor * peak_of(loads.at(speed), method).load, speed).margin >= r.margin;
     });
   };
   SafeSpeed safe;
   safe.method = method;
   // The lower end is a claim too: with its load even the slowest deployment has to keep the margin.
-  if (*least((1 + r.load_uncertainty) * peak_of(loads.at(slowest), method).load).margin < r.margin) {
+  if (*least((1 + r.load_uncertainty) * peak_of(loads.at(slowest), method).load, slowest).margin < r.margin) {
     safe.unsafe_at = slowest;
   } else {
     safe.speed = speed_with(1);
     safe.lowest = speed_with(1 + r.load_uncertainty);
     safe.highest = speed_with(1 - r.load_uncertainty);
   }
-  const MethodPeak peak =
-      peak_of(loads.at(safe.unsafe_at ? slowest : safe.speed.value_or(fastest_deployment)), method);
+  const double at = safe.unsafe_at ? slowest : safe.speed.value_or(fastest_deployment);
+  const MethodPeak peak = peak_of(loads.at(at), method);
   safe.load = peak.load, safe.applies = peak.applies, safe.note = peak.note;
-  safe.member = least(peak.load).member;
+  safe.member = least(peak.load, at).member;
   return safe;
 }
 
@@ -103,6 +135,8 @@ std::string printed(const std::optional<double>& speed) {
 /// canopy slows a light payload down during a long filling.
 std::string advice_of(const FastestResult& r, double filling_distance) {
   const SafeSpeed& design = r.design();
+  if (design.unsafe_at && r.snatch && r.snatch->largest() > design.load)
+    return fmt::format("no speed: the {} does not carry the snatch load", design.member);
   if (design.unsafe_at) return "no speed: the weakest part fails even at the rate of descent";
   if (r.design_method == computed_method)
     return fmt::format(
@@ -110,8 +144,10 @@ std::string advice_of(const FastestResult& r, double filling_distance) {
         printed(design.lowest));
   std::string text = fmt::format(
       "{}, the lower end for infinite mass: the speed does not decrease during filling. "
-      "A reefing line that fails, the snatch load and the stress of the cloth are excluded",
-      printed(design.lowest));
+      "A reefing line that fails{} the stress of the cloth are excluded",
+      printed(design.lowest), r.snatch ? " and" : ", the snatch load and");
+  if (r.snatch && r.snatch->largest() > (1 + r.load_uncertainty) * design.load)
+    text += fmt::format(". The snatch load of {} N is the larger one there", rounded(r.snatch->largest()));
   std::optional<double> low = fastest_deployment, high = 0.0;
   bool others = false;
   for (const SafeSpeed& s : r.methods) {
@@ -152,26 +188,31 @@ FastestResult run_fastest(const Settings& resolved, LoadRequest request, double 
   if (request.measured_load)
     throw Error(ExitCode::usage,
                 "a measured load belongs to one speed: leave out --measured-load for the fastest deployment");
+  FastestResult r;
   // A drag area that a run provides is read once.
   const DragCoefficient drag = opening_drag_coefficient(resolved, request);
-  request.drag_coefficient = drag.value;
+  r.warnings = warnings_of_used({request.steady, request.opening, request.filling_from});
+  request.drag_coefficient = drag.value, request.steady.clear();
   const LoadsAtSpeed loads(resolved, request);
   const LoadResult& fast = loads.at(fastest_deployment);
-  FastestResult r;
   r.title = fast.title, r.payload_mass = fast.payload_mass, r.parachute_mass = fast.parachute_mass;
-  r.height = fast.height, r.margin = margin;
-  r.load_uncertainty = std::hypot(drag.uncertainty, opening_scatter);
-  r.load_uncertainty_from = fmt::format("drag area {:.0f} % ({}), scatter of repeated openings {:.0f} %",
-                                        100 * drag.uncertainty, drag.from, 100 * opening_scatter);
+  r.height = fast.height, r.density = fast.density, r.air_source = fast.air_source;
+  r.path_angle = request.path_angle, r.margin = margin;
+  LoadUncertainty uncertainty = load_uncertainty(drag);
+  r.load_uncertainty = uncertainty.value, r.load_uncertainty_from = std::move(uncertainty.from);
   const double slowest =
       std::max(slowest_deployment, 1.001 * slowest_opening(r.payload_mass + r.parachute_mass,
                                                            fast.drag_coefficient * fast.reference_area,
-                                                           r.height, request.path_angle));
+                                                           r.density, request.path_angle));
+  loads.require_snatch(slowest);
   for (const MethodLoad& m : fast.stages.front().methods)
     r.methods.push_back(safe_speed(resolved, loads, m.method, slowest, r));
   const bool computed = fast.record_peak_load && request.reefing.empty();
   r.design_method = computed ? computed_method : infinite_mass_method;
+  r.snatch = loads.snatch(r.design().unsafe_at ? slowest : r.design().lowest.value_or(fastest_deployment));
+  if (r.snatch && r.snatch->other_load) r.warnings.push_back(two_snatch_loads(*r.snatch));
   r.advice = advice_of(r, fast.filling_constant);
+  for (std::string& text : strain_warnings(resolved, 0)) r.warnings.push_back(std::move(text));
   if (r.design().unsafe_at)
     r.warnings.push_back(
         fmt::format("no deployment is safe by the method {}: at {:.3g} m/s, about the rate of descent, the "

@@ -42,13 +42,16 @@ inline constexpr double fastest_deployment = 270;
 /// result.json of `ripstop load --fastest`.
 struct FastestResult {
   std::string title;
-  double payload_mass = 0, parachute_mass = 0, height = 0;  // [kg], [kg], above sea level [m]
-  double margin = 0;                                        // of safety that every member keeps
-  double load_uncertainty = 0;                              // relative
+  double payload_mass = 0, parachute_mass = 0, path_angle = 0;  // [kg], [kg], below the horizon [deg]
+  double height = 0, density = 0;                               // above sea level [m], [kg/m3]
+  std::string air_source;
+  double margin = 0;            // of safety that every member keeps
+  double load_uncertainty = 0;  // relative
   std::string load_uncertainty_from;
   std::string design_method;  // of `methods`: whose lowest speed is the answer
   std::string advice;         // which speed to use, and why the methods differ
   std::vector<SafeSpeed> methods;
+  std::optional<SnatchResult> snatch;  // at the speed of the advice; absent: no speed difference is given
   std::vector<std::string> warnings;
 
   const SafeSpeed& design() const;
@@ -58,20 +61,25 @@ void each_member(T& r, Visit&& visit) {
   visit("title", r.title);
   visit("payload_mass_kg", r.payload_mass);
   visit("parachute_mass_kg", r.parachute_mass);
+  visit("path_angle_deg", r.path_angle);
   visit("height_m", r.height);
+  visit("density_kg_m3", r.density);
+  visit("air_from", r.air_source);
   visit("margin_of_safety", r.margin);
   visit("load_uncertainty", r.load_uncertainty);
   visit("load_uncertainty_from", r.load_uncertainty_from);
   visit("design_method", r.design_method);
   visit("advice", r.advice);
   visit("methods", r.methods);
+  visit("snatch", r.snatch);
   visit("warnings", r.warnings);
 }
 std::string to_json(const FastestResult& result);
 
 /// The speed of `request` is not used. The load of a method is the largest of all reefed stages and of the full opening;
 /// speeds are found by bisection. The uncertainty of a load is that of the drag area and the scatter of repeated
-/// openings (opening_scatter), as independent parts. Throws Error(usage) as run_load(), for a margin below 0, and for a
+/// openings (opening_scatter), as independent parts. Lines, riser and hardware also have to carry the snatch load at that
+/// speed (snatch_of()), which is taken without an uncertainty. Throws Error(usage) as run_load(), for a margin below 0, and for a
 /// parachute in which no strength of lines, tape, riser and hardware is known.
 FastestResult run_fastest(const Settings& resolved, LoadRequest request, double margin = 0);
 

@@ -5,22 +5,18 @@
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/words.h"
-#include "ripstop/flight/atmosphere.h"
 #include "ripstop/run/opening/load.h"
 
 namespace ripstop::inline run {
 
 std::vector<MethodLoad> handbook_methods(const Settings& resolved) {
   if (!resolved.payload().mass_kg) return {};
-  const FlowSettings& stream = resolved.flow();
   LoadRequest request;
   request.payload_mass = *resolved.payload().mass_kg;
-  request.speed = stream.speed_m_s;
+  request.speed = resolved.flow().speed_m_s;
   request.path_angle = resolved.inflation().flight_angle_deg;
-  request.ground = lowest_height;
+  request.descent = false;
   try {
-    request.height =
-        resolved.flow().height_m ? *resolved.flow().height_m : standard_height(stream.density_kg_m3);
     return run_load(resolved, request).stages.front().methods;
   } catch (const Error&) {  // a drop for which no method has an answer: nothing to compare with
     return {};

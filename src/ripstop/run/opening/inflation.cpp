@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "ripstop/case/deployment.h"
+#include "ripstop/case/opening.h"
 #include "ripstop/case/payload.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/quantity_error.h"
@@ -105,19 +106,19 @@ constexpr double folded_share = 0.25;
 /// C_x times the drag of the open canopy at the speed of deployment, and the handbook's methods for a payload.
 void compare_with_handbook(InflationResult& r, const Settings& resolved, const LoadSource& source,
                            const Opening& solver) {
+  const FlowSettings& stream = resolved.flow();
+  const double q = 0.5 * stream.density_kg_m3 * stream.speed_m_s * stream.speed_m_s;
   std::optional<double> drag = source.steady_drag;
   std::string from = drag ? "the given steady drag" : "";
   if (!drag && r.steady_load) {
     drag = r.steady_load, from = "the steady load of this opening";
   } else if (!drag && solver.air()) {
-    const FlowSettings& stream = resolved.flow();
-    const double coefficient = usual_drag_coefficient(resolved.parachute()),
-                 q = 0.5 * stream.density_kg_m3 * stream.speed_m_s * stream.speed_m_s;
+    const double coefficient = usual_drag_coefficient(resolved.parachute());
     drag = coefficient * nominal_area(resolved.parachute()) * q;
     from = fmt::format("C_D {:.3g} (middle of the handbook range) on S0 at {:.4g} m/s", coefficient,
                        stream.speed_m_s);
   }
-  r.estimate = opening_estimate(resolved.parachute(), drag, from);
+  r.estimate = opening_estimate(resolved.parachute(), drag, q, from);
   const double peak = r.smooth_peak.value_or(r.peak_load);
   const bool full = r.filled.value_or(true);
   if (solver.air() && !flies(solver) && drag && full) r.opening_force_coefficient = peak / *drag;
@@ -162,9 +163,10 @@ void take_quality(InflationResult& r, const Settings& resolved, const Opening& s
       gap = std::max(gap, std::abs(row.momentum_gap));
       if (row.time >= r.start_up_time.value_or(0)) defect = std::max(defect, row.mass_defect);
     }
-    r.momentum_residual = gap / r.peak_load, r.cells_across = cells_across(resolved);
+    r.momentum_residual = gap / r.peak_load, r.mass_defect = defect;
+    r.cells_across = cells_across(resolved);
     values.insert(values.end(), {{"momentum_residual", *r.momentum_residual},
-                                 {"mass_defect", defect},
+                                 {"mass_defect", *r.mass_defect},
                                  {"cells_across", *r.cells_across}});
     const double peak_time = r.smooth_peak_time.value_or(r.peak_time);
     if (r.start_up_time && !history.rows.empty() &&
@@ -184,6 +186,7 @@ void take_quality(InflationResult& r, const Settings& resolved, const Opening& s
       distance = row.path / nominal_diameter(resolved.parachute());
   if (const auto text = handbook_disagreement(r.smooth_peak.value_or(r.peak_load), distance, r.handbook))
     judgement.add({*text});
+  judgement.add(r.source.warnings);
   judgement.add(mesh_warnings(resolved));
   if (solver.air()) judgement.add(air_warnings(resolved));
   judgement.add(strain_warnings(resolved, r.stress.strain));
@@ -197,6 +200,8 @@ InflationResult result_of(const Settings& resolved, const LoadSource& source, co
   InflationResult r;
   r.title = resolved.title();
   r.source = source;
+  OpeningAir air = opening_air(resolved);
+  r.height = air.height, r.density = air.density, r.air_source = std::move(air.from);
   r.settings = solver.problem().settings;
   take_peaks(r, state, history, start_up);
   take_steady_load(r, source, solver, history, start_up);

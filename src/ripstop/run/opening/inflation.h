@@ -59,8 +59,11 @@ struct InflationResult {
   std::optional<Margins> margins;
   double energy_residual = 0;  // largest |residual| of all frames after the first tenth of the work
   std::optional<double> momentum_residual;  // of the air: largest momentum gap of a step over the peak load
+  std::optional<double> mass_defect;        // of the air: largest of a step after the start-up
   double contact_depth = 0, pierced = 0;    // largest of all frames, see InflationFrame
   std::optional<double> cells_across;       // of the air, across the inflated canopy
+  std::optional<double> height, density;    // at the start, above sea level [m], [kg/m3]
+  std::optional<std::string> air_source;    // these three are absent in results of earlier versions
   OpeningEstimate estimate;
   std::optional<double> opening_force_coefficient;   // C_x of this opening: peak over C_D S q, infinite mass
   std::optional<double> finite_mass_factor;          // X_1 of this opening: peak over C_x C_D S q
@@ -125,9 +128,13 @@ void each_member(T& r, Visit&& visit) {
   visit("margins", r.margins);
   visit("energy_residual", r.energy_residual);
   visit("momentum_residual", r.momentum_residual);
+  visit("mass_defect", r.mass_defect);
   visit("contact_depth", r.contact_depth);
   visit("pierced_edges", r.pierced);
   visit("cells_across", r.cells_across);
+  visit("height_m", r.height);
+  visit("density_kg_m3", r.density);
+  visit("air_from", r.air_source);
   visit("knacke_load_n", r.estimate.load, or_null);
   visit("knacke_coefficient", r.estimate.coefficient);
   visit("knacke_drag_n", r.estimate.drag, or_null);

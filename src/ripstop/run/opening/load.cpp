@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "ripstop/case/cluster.h"
+#include "ripstop/case/opening.h"
 #include "ripstop/case/payload.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/positive.h"
@@ -15,11 +17,14 @@
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/descent.h"
 #include "ripstop/flight/validity.h"
+#include "ripstop/fsi/opening_estimate.h"
 #include "ripstop/run/descent/descent.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/opening/filling.h"
 #include "ripstop/run/opening/handbook.h"
 #include "ripstop/run/opening/opening_record.h"
+#include "ripstop/run/steady/warnings.h"
+#include "ripstop/run/used_run.h"
 
 namespace ripstop::inline run {
 namespace {
@@ -37,10 +42,10 @@ void check_request(const LoadRequest& request) {
   require_positive("payload mass (kg)", request.payload_mass);
   require_positive("speed at line stretch (m/s)", request.speed);
   if (request.measured_load) require_positive("measured opening load (N)", *request.measured_load);
-  if (request.height && !(*request.height > request.ground))
+  if (request.height && !(*request.height > request.ground.value_or(0)))
     throw Error(ExitCode::usage,
                 fmt::format("an opening at {:g} m above sea level: must be above the ground at {:g} m",
-                            *request.height, request.ground));
+                            *request.height, request.ground.value_or(0)));
   if (!(std::abs(request.path_angle) <= 90))
     throw Error(ExitCode::usage, fmt::format("a flight path {:g} degrees below the horizon: must be from -90 "
                                              "(vertically up) to 90 (vertically down)",
@@ -58,18 +63,15 @@ void check_request(const LoadRequest& request) {
   }
 }
 
-double deployment_height(const Settings& resolved, const LoadRequest& request) {
-  if (request.height) return *request.height;
-  const double known = resolved.flow().height_m.value_or(request.ground);
-  return known > request.ground ? known : request.ground + usual_deployment_height;
+/// Where the flight ends [m]. An opening at the ground itself continues below it.
+double end_of_flight(const LoadRequest& request, double height) {
+  const double ground = request.ground.value_or(request.height ? 0 : lowest_height);
+  return height > ground ? ground : lowest_height;
 }
 
-/// C_D of the infinite-mass load. The C_x of the handbook is the peak over the drag that its C_D in descent gives. With a
-/// smaller coefficient, such as that of a canopy on the axis of the stream, the load would be too low. So at least the
-/// largest C_D of the handbook is used, unless the user gives C_x.
-double design_drag(const Settings& resolved, const LoadRequest& request, double drag_coefficient) {
-  if (request.opening_coefficient) return drag_coefficient;
-  return std::max(drag_coefficient, experience(resolved.parachute()).drag_coefficient.high);
+/// The density over that of the standard atmosphere.
+double ratio_to_standard(const LoadResult& r) {
+  return r.density / standard_air(r.height).density;
 }
 
 /// Opening and filling coefficients: as asked, else the handbook's of the family.
@@ -80,7 +82,9 @@ void choose_coefficients(const Settings& resolved, const LoadRequest& request, L
   DragCoefficient drag = opening_drag_coefficient(resolved, request);
   r.drag_coefficient = drag.value, r.drag_source = std::move(drag.from);
   r.drag_uncertainty = drag.uncertainty;
-  r.design_drag_coefficient = design_drag(resolved, request, drag.value);
+  r.design_drag_coefficient = request.opening_coefficient
+                                  ? drag.value  // its C_x belongs to it
+                                  : design_drag_coefficient(resolved.parachute(), drag.value);
   r.opening_coefficient = request.opening_coefficient.value_or(known.opening_coefficient);
   r.opening_source = request.opening_coefficient ? "given" : known.opening_source;
   require_positive("opening coefficient C_x", r.opening_coefficient);
@@ -190,7 +194,7 @@ StageLoads begin_stage(const LoadRequest& request, const LoadResult& r, const Fl
   StageLoads stage;
   stage.begin = state.time, stage.speed = state.speed, stage.height = state.height;
   const StandardAir air = standard_air(state.height);
-  stage.density = air.density;
+  stage.density = ratio_to_standard(r) * air.density, stage.path_angle = state.path_angle;
   stage.drag_area_before = before, stage.drag_area = drag_area;
   // A stage that was cut while it overshot has no less to fill than the drag area that it would have held.
   const double added = drag_area - std::min(before, before_held);
@@ -219,6 +223,7 @@ StageLoads begin_stage(const LoadRequest& request, const LoadResult& r, const Fl
 void fly_stages(const LoadRequest& request, LoadResult& r) {
   FlightState state{0, 0, 0, r.height, request.speed, request.path_angle};
   const double open = r.drag_coefficient * r.reference_area, mass = r.payload_mass + r.parachute_mass;
+  const double ground = end_of_flight(request, r.height);
   std::vector<ReefedStage> stages = request.reefing;
   stages.push_back({1, longest_flight});
   double before = 0, before_held = 0;
@@ -231,7 +236,7 @@ void fly_stages(const LoadRequest& request, LoadResult& r) {
     const double settled = stage.filling_time * (2 + std::pow(r.opening_coefficient, 1 / r.filling_exponent));
     leg.duration = std::min(reefed.duration, settled);
     leg.step = stage.filling_time / steps_a_filling;
-    leg.ground = request.ground;
+    leg.ground = ground, leg.density_ratio = ratio_to_standard(r);
     const FlightRow peak = append(r.flight, fly(state, mass, leg));
     if (reefed.duration < stage.filling_time)
       for (MethodLoad& m : stage.methods)
@@ -243,7 +248,7 @@ void fly_stages(const LoadRequest& request, LoadResult& r) {
     r.stages.push_back(stage);
     if (peak.force > r.peak_load) r.peak_load = peak.force, r.peak_time = peak.state.time;
     before = r.flight.back().drag_area;
-    if (reefed.duration > settled && state.height > request.ground && (request.descent || reefed.share < 1)) {
+    if (reefed.duration > settled && state.height > ground && (request.descent || reefed.share < 1)) {
       const double area = before = stage.drag_area;
       leg.drag_area = [area](double, double) { return area; };
       leg.duration = reefed.duration - settled;
@@ -256,7 +261,8 @@ void fly_stages(const LoadRequest& request, LoadResult& r) {
     before_held = stage.drag_area;
   }
   r.steady_time = state.time, r.steady_drop = r.height - state.height, r.steady_speed = state.speed;
-  const double terminal = terminal_speed(mass, open, standard_air(state.height).density);
+  const double terminal =
+      terminal_speed(mass, open, ratio_to_standard(r) * standard_air(state.height).density);
   r.steady_reached = std::abs(state.speed / terminal - 1) < 2e-3;
 }
 
@@ -268,7 +274,7 @@ void fly_record(const Settings& resolved, const LoadRequest& request, LoadResult
   leg.drag_area = from_record(record.distance, record.drag_area, record.steady_drag_area);
   leg.duration = 3 * record.distance.back() / request.speed;
   leg.step = leg.duration / 6000;
-  leg.ground = request.ground;
+  leg.ground = end_of_flight(request, r.height), leg.density_ratio = ratio_to_standard(r);
   const FlightRow peak = append(r.record_flight, fly(state, mass, leg));
   r.record_peak_load = peak.force;
   if (!request.reefing.empty()) return;
@@ -304,12 +310,33 @@ void choose_design_load(const Settings& resolved, const LoadRequest& request, Lo
     r.design_method = computed_method;
   }
   r.line_load_factor = experience(resolved.parachute()).line_load_factor;
-  r.margins = load_margins(resolved, r.design_load);
-  r.hardware = hardware_need(r.design_load, resolved.margins());
-  for (const std::string& text : margin_warnings(r.margins)) r.warnings.push_back(text);
   const double mach = request.speed / standard_air(r.height).sound_speed;
   for (const std::string& text : outside_range(infinite_mass_model, {{"Mach number", mach}}))
     r.warnings.push_back(text);
+}
+
+/// Margins and required strengths, of the opening or of the snatch before it.
+void take_required_load(const Settings& resolved, LoadResult& r) {
+  const double largest_snatch = r.snatch ? r.snatch->largest() : 0;
+  r.required_load = std::max(r.design_load, largest_snatch);
+  r.margins = load_margins(resolved, r.design_load, largest_snatch);
+  r.hardware = hardware_need(r.required_load, resolved.margins());
+  for (const std::string& text : margin_warnings(r.margins)) r.warnings.push_back(text);
+  if (!r.snatch) return;
+  for (const auto& [part, ratio] :
+       {std::pair("a line", r.snatch->line_margin), std::pair("the riser", r.snatch->riser_margin)})
+    if (ratio && *ratio < 1)
+      r.warnings.push_back(
+          fmt::format("the snatch load breaks {}: breaking load / snatch load {:.2f}; use a stronger "
+                      "material, or a longer or softer part",
+                      part, *ratio));
+  if (r.snatch->other_load) r.warnings.push_back(two_snatch_loads(*r.snatch));
+  if (largest_snatch <= r.design_load) return;
+  const auto [snatch, design] = rounded_apart(largest_snatch, r.design_load, 4);
+  r.warnings.push_back(
+      fmt::format("the snatch load of {} N exceeds the design load of {} N of the opening: it determines the "
+                  "margins of lines, riser and hardware, and the required hardware",
+                  snatch, design));
 }
 
 }  // namespace
@@ -345,9 +372,15 @@ DragCoefficient opening_drag_coefficient(const Settings& resolved, const LoadReq
               "inflation.drag_coefficient in the case");
 }
 
-double slowest_opening(double mass, double drag_area, double height, double path_angle) {
+double slowest_opening(double mass, double drag_area, double density, double path_angle) {
   const double along = std::sin(path_angle * std::numbers::pi / 180);
-  return along > 0 ? std::sqrt(along) * terminal_speed(mass, drag_area, standard_air(height).density) : 0;
+  return along > 0 ? std::sqrt(along) * terminal_speed(mass, drag_area, density) : 0;
+}
+
+LoadUncertainty load_uncertainty(const DragCoefficient& drag) {
+  return {std::hypot(drag.uncertainty, opening_scatter),
+          fmt::format("drag area {:.0f} % ({}), scatter of repeated openings {:.0f} %",
+                      100 * drag.uncertainty, drag.from, 100 * opening_scatter)};
 }
 
 LoadResult run_load(const Settings& resolved, const LoadRequest& request) {
@@ -357,12 +390,15 @@ LoadResult run_load(const Settings& resolved, const LoadRequest& request) {
   r.title = resolved.title();
   r.payload_mass = request.payload_mass;
   r.parachute_mass = parachute_mass(resolved);
-  r.height = deployment_height(resolved, request);
+  OpeningAir air = opening_air(resolved, request.height, request.ground);
+  r.height = air.height, r.density = air.density, r.air_source = std::move(air.from);
+  r.speed = request.speed, r.path_angle = request.path_angle;
   choose_coefficients(resolved, request, r);
+  r.warnings = warnings_of_used({request.steady, request.opening, request.filling_from});
+  for (std::string& text : strain_warnings(resolved, 0)) r.warnings.push_back(std::move(text));
   const double mass = r.payload_mass + r.parachute_mass, area = r.drag_coefficient * r.reference_area;
-  if (request.speed <= slowest_opening(mass, area, r.height, request.path_angle)) {
-    const auto [rate, speed] =
-        rounded_apart(terminal_speed(mass, area, standard_air(r.height).density), request.speed);
+  if (request.speed <= slowest_opening(mass, area, r.density, request.path_angle)) {
+    const auto [rate, speed] = rounded_apart(terminal_speed(mass, area, r.density), request.speed);
     throw Error(
         ExitCode::usage,
         fmt::format(
@@ -373,15 +409,8 @@ LoadResult run_load(const Settings& resolved, const LoadRequest& request) {
   fly_stages(request, r);
   if (!request.opening.empty()) fly_record(resolved, request, r);
   choose_design_load(resolved, request, r);
-  r.snatch = snatch_of(resolved, request, r);
-  if (r.snatch && r.snatch->load > r.design_load) {
-    r.hardware = hardware_need(r.snatch->load, resolved.margins());
-    const auto [snatch, design] = rounded_apart(r.snatch->load, r.design_load, 4);
-    r.warnings.push_back(fmt::format(
-        "the snatch load of {} N exceeds the design load of {} N: the required hardware is that "
-        "of the snatch load, but the margins of lines, riser and hardware are those of the design load",
-        snatch, design));
-  }
+  if (request.descent) r.snatch = snatch_of(resolved, request, r);
+  take_required_load(resolved, r);
   return r;
 }
 

@@ -23,13 +23,12 @@ struct ReefedStage {
 };
 
 /// The request; absent values follow from the case and from data of the family.
-inline constexpr double usual_deployment_height = 1000;  // above the ground [m] (assumed)
 struct LoadRequest {
-  double payload_mass = 0;  // [kg]
-  double speed = 0;         // through the air at line stretch [m/s]
-  /// Above sea level there; absent: flow.height_m of the case where that is above the ground, else so far above it [m].
-  std::optional<double> height;
-  double ground = 0;       // [m]
+  double payload_mass = 0;       // [kg]
+  double speed = 0;              // through the air at line stretch [m/s]
+  std::optional<double> height;  // above sea level there [m]; absent: opening_air() of the case
+  /// Above sea level, where the flight ends [m]. Absent: sea level, or with the air of the case nowhere.
+  std::optional<double> ground;
   double path_angle = 90;  // of the flight path at line stretch, below the horizon [deg]
   std::optional<double> drag_coefficient, opening_coefficient, filling_constant, filling_exponent;
   double impulse_integral = 0.5;  // I_F of momentum_impulse_load()
@@ -39,8 +38,10 @@ struct LoadRequest {
       packed_drag_area;  // of the packed canopy with its pilot, to find that difference [m2]
   std::optional<double> payload_drag_area;  // [m2]; absent: the case's
   std::filesystem::path steady, opening;    // folders of runs to take the drag area from; empty: none
-  std::filesystem::path filling_from;   // of a computed opening whose n and exponent are taken; empty: none
-  bool descent = true;                  // the trajectory continues to the steady descent or the ground
+  std::filesystem::path filling_from;  // of a computed opening whose n and exponent are taken; empty: none
+  /// The trajectory continues to the steady descent or the ground, and the snatch load is computed; else the opening
+  /// alone.
+  bool descent = true;
   std::optional<double> measured_load;  // of an opening of this parachute at this speed and mass [N]
 };
 
@@ -60,6 +61,7 @@ void each_member(T& row, Visit&& visit) {
 
 struct StageLoads {
   double begin = 0, speed = 0, height = 0, density = 0;          // of the stage [s], [m/s], [m], [kg/m3]
+  double path_angle = 0;                                         // at its begin, below the horizon [deg]
   double drag_area_before = 0, drag_area = 0, filling_time = 0;  // [m2], [m2], [s]
   double filling_constant = 0;                                   // n at this speed
   double ballistic_parameter = 0, mass_ratio = 0;
@@ -75,6 +77,7 @@ void each_member(T& s, Visit&& visit) {
   visit("speed_m_s", s.speed);
   visit("height_m", s.height);
   visit("density_kg_m3", s.density);
+  visit("path_angle_deg", s.path_angle);
   visit("drag_area_before_m2", s.drag_area_before);
   visit("drag_area_m2", s.drag_area);
   visit("filling_time_s", s.filling_time);
@@ -91,22 +94,25 @@ void each_member(T& s, Visit&& visit) {
 /// result.json of `ripstop load`.
 struct LoadResult {
   std::string title;
-  double payload_mass = 0, parachute_mass = 0;      // [kg]
-  double height = 0;                                // of the deployment, above sea level [m]
+  double payload_mass = 0, parachute_mass = 0;  // [kg]
+  double speed = 0, path_angle = 0;             // at line stretch [m/s], below the horizon [deg]
+  double height = 0, density = 0;               // there, above sea level [m], [kg/m3]
+  std::string air_source;
   double nominal_diameter = 0, reference_area = 0;  // [m], [m2]
   double drag_coefficient = 0, opening_coefficient = 0, filling_constant = 0, filling_exponent = 0;
   double ludtke_exponent = 0;
   double drag_uncertainty = 0;         // of the drag coefficient, relative
-  double design_drag_coefficient = 0;  // C_D of the infinite-mass load: see design_drag() in load.cpp
+  double design_drag_coefficient = 0;  // C_D of the infinite-mass load
   std::string drag_source, opening_source, filling_source;
   std::vector<StageLoads> stages;
-  double design_load = 0;                  // load for which lines and riser are to be designed [N]
-  std::string design_load_from;            // measured, computed or infinite mass
-  std::string design_method;               // of a stage, whose load this is; empty: measured
-  HardwareNeed hardware;                   // under the larger of design load and snatch load
-  double line_load_factor = 1;             // largest line load over an equal share, of the family
-  std::optional<Margins> margins;          // of lines and riser under the design load
-  double peak_load = 0, peak_time = 0;     // of the trajectory [N], [s]
+  double design_load = 0;               // load for which lines and riser are to be designed [N]
+  std::string design_load_from;         // measured, computed or infinite mass
+  std::string design_method;            // of a stage, whose load this is; empty: measured
+  double required_load = 0;             // of lines, riser and hardware: design load or larger snatch load [N]
+  HardwareNeed hardware;                // under it
+  double line_load_factor = 1;          // largest line load over an equal share, of the family
+  std::optional<Margins> margins;       // the same, and of tape or hem under the design load
+  double peak_load = 0, peak_time = 0;  // of the trajectory [N], [s]
   std::optional<double> record_peak_load;  // of the trajectory with a computed opening's drag area [N]
   std::optional<SnatchResult> snatch;
   double steady_speed = 0, steady_time = 0, steady_drop = 0;  // where the descent is steady [m/s], [s], [m]
@@ -119,7 +125,11 @@ void each_member(T& r, Visit&& visit) {
   visit("title", r.title);
   visit("payload_mass_kg", r.payload_mass);
   visit("parachute_mass_kg", r.parachute_mass);
+  visit("speed_m_s", r.speed);
+  visit("path_angle_deg", r.path_angle);
   visit("height_m", r.height);
+  visit("density_kg_m3", r.density);
+  visit("air_from", r.air_source);
   visit("nominal_diameter_m", r.nominal_diameter);
   visit("reference_area_m2", r.reference_area);
   visit("drag_coefficient", r.drag_coefficient);
@@ -136,6 +146,7 @@ void each_member(T& r, Visit&& visit) {
   visit("design_load_n", r.design_load);
   visit("design_load_from", r.design_load_from);
   visit("design_method", r.design_method);
+  visit("required_load_n", r.required_load);
   visit("required_hardware", r.hardware);
   visit("line_load_factor", r.line_load_factor);
   visit("margins", r.margins);
@@ -165,9 +176,17 @@ struct DragCoefficient {
 inline constexpr double usual_drag_uncertainty = 0.1;
 DragCoefficient opening_drag_coefficient(const Settings& resolved, const LoadRequest& request);
 
+/// Relative uncertainty of an opening load that is not measured: of the drag area and of the scatter of repeated openings
+/// (opening_scatter), as independent parts.
+struct LoadUncertainty {
+  double value = 0;
+  std::string from;
+};
+LoadUncertainty load_uncertainty(const DragCoefficient& drag);
+
 /// On a path downwards, the speed at line stretch below which the weight along the path exceeds the drag of the open
-/// canopy, so that the payload still accelerates; else 0 [m/s]. Arguments: [kg], [m2], above sea level [m], [deg].
-double slowest_opening(double mass, double drag_area, double height, double path_angle);
+/// canopy, so that the payload still accelerates; else 0 [m/s]. Arguments: [kg], [m2], [kg/m3], [deg].
+double slowest_opening(double mass, double drag_area, double density, double path_angle);
 
 /// Throws Error(usage) for quantities that are not above 0, a descent rate above the deployment speed, stages
 /// that do not grow, and inputs that finished_steady() and standard_air() refuse.

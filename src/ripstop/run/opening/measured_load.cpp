@@ -14,6 +14,7 @@
 #include "ripstop/output/plot.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/run_folder.h"
+#include "ripstop/run/used_run.h"
 
 namespace ripstop::inline run {
 namespace {
@@ -85,7 +86,9 @@ double best_shift(const LoadRecord& computed, const LoadRecord& measured) {
 
 LoadRecord computed_record(const std::filesystem::path& run) {
   if (!finished_result(run) || !std::filesystem::exists(run / "history.csv"))
-    throw Error(ExitCode::usage, fmt::format("{} contains no finished run of ripstop inflate", run.string()));
+    throw Error(ExitCode::usage, fmt::format("{0}: contains no finished run of ripstop inflate; compute one "
+                                             "with: ripstop inflate CASE --out {0}",
+                                             run.string()));
   const CsvTable table = read_csv(run / "history.csv");
   return {table.column("time_s"), table.column("load_mean_n")};
 }
@@ -122,6 +125,7 @@ std::string to_json(const MeasuredLoad& comparison) {
 MeasuredLoad compare_load(const MeasuredLoadRequest& request) {
   const LoadRecord computed = computed_record(request.run), measured = measured_record(request);
   MeasuredLoad m;
+  m.warnings = warnings_of_shown({request.run});
   m.title = nlohmann::json::parse(*finished_result(request.run)).value("title", std::string());
   m.run = request.run.string(), m.file = request.file.string();
   m.shift = request.shift ? *request.shift : best_shift(computed, measured);

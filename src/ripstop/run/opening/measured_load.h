@@ -29,6 +29,7 @@ struct MeasuredLoad {
   double overlap = 0;                                           // time for which both are known [s]
   double rms_difference = 0;                                    // over that time [N]
   double computed_impulse = 0, measured_impulse = 0;            // over that time [N s]
+  std::vector<std::string> warnings;                            // of the run
   std::vector<double> time, measured, computed_time, computed;  // not in result.json: load.svg and load.png
 };
 template <Of<MeasuredLoad> T, class Visit>
@@ -47,6 +48,7 @@ void each_member(T& m, Visit&& visit) {
   visit("rms_difference_n", m.rms_difference);
   visit("computed_impulse_n_s", m.computed_impulse);
   visit("measured_impulse_n_s", m.measured_impulse);
+  visit("warnings", m.warnings);
 }
 std::string to_json(const MeasuredLoad& comparison);
 

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "ripstop/core/claimed_folder.h"
 #include "ripstop/core/file.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/run_folder.h"
+#include "ripstop/run/used_run.h"
 
 namespace ripstop::inline run {
 namespace {
@@ -66,6 +68,13 @@ void summarise_samples(const std::vector<std::string>& texts, SampleSummary& sum
   };
   warn_of("filled", "ended before the canopy had filled; increase the duration");
   warn_of("usable", "must not be used, see their warnings");
+  std::vector<RunEnd> ends;
+  for (std::size_t n = 0; n < texts.size(); ++n) {
+    ends.push_back(end_of_run(texts[n], summary.folders[n]));
+    summary.usable = summary.usable && ends.back().usable;
+    ends.back().usable = true;  // listed above
+  }
+  for (std::string& text : grouped_warnings(ends)) summary.warnings.push_back(std::move(text));
 }
 
 std::string to_json(const SampleSummary& summary) {

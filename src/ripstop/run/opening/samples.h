@@ -33,6 +33,7 @@ struct SampleSummary {
   std::optional<Statistic> peak_load, smooth_peak, filling_time, filling_distance, opening_force_coefficient,
       finite_mass_factor;
   std::vector<std::string> warnings;
+  bool usable = true;  // false: one of the openings must not be used
 };
 template <Of<SampleSummary> T, class Visit>
 void each_member(T& s, Visit&& visit) {
@@ -46,6 +47,7 @@ void each_member(T& s, Visit&& visit) {
   visit("opening_force_coefficient", s.opening_force_coefficient);
   visit("finite_mass_factor", s.finite_mass_factor);
   visit("warnings", s.warnings);
+  visit("usable", s.usable);
 }
 std::string to_json(const SampleSummary& summary);
 /// Statistics and warnings of openings from the texts of their result.json; their folders are in the summary.

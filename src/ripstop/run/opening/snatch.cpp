@@ -1,5 +1,7 @@
 #include "ripstop/run/opening/snatch.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -7,13 +9,19 @@
 #include "ripstop/case/deployment.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/units.h"
+#include "ripstop/core/words.h"
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/deployment.h"
 #include "ripstop/flight/snatch.h"
+#include "ripstop/material/strength.h"
 #include "ripstop/run/opening/load.h"
 
 namespace ripstop::inline run {
 namespace {
+
+bool gives_difference(const LoadRequest& request) {
+  return request.snatch_speed || request.packed_drag_area;
+}
 
 /// The snatch of one case and request, whose parts can be changed.
 class Snatch {
@@ -21,9 +29,9 @@ class Snatch {
   Snatch(const Settings& resolved, const LoadRequest& request, const LoadResult& result)
       : request_(request),
         masses_{result.payload_mass, result.parachute_mass},
-        density_(standard_air(result.height).density),
+        density_(result.density),
         payload_area_(request.payload_drag_area.value_or(resolved.payload().drag_area_m2)) {
-    if (request.snatch_speed || request.packed_drag_area) return;
+    if (gives_difference(request)) return;
     packed_ = packed_parachute(resolved);
     packed_->speed = request.speed, packed_->density = density_;
     packed_->payload_mass = result.payload_mass, packed_->payload_drag_area = payload_area_;
@@ -36,10 +44,11 @@ class Snatch {
       PackedParachute packed = *packed_;
       packed.lines = parts;
       const Deployment d = deploy_parachute(packed);
-      snatch.from = "[deployment] of the case";
+      snatch.from = "[deployment] of the case", snatch.model = deployment_model;
       snatch.speed_difference = d.relative_speed, snatch.load = d.snatch_load;
     } else {
       snatch.from = request_.snatch_speed ? "given" : "drag area of the packed canopy";
+      snatch.model = energy_model;
       snatch.speed_difference = request_.snatch_speed ? *request_.snatch_speed : difference(parts);
       const SnatchLoad load = snatch_load(masses_.first, masses_.second, snatch.speed_difference, parts);
       snatch.load = load.load, snatch.time = load.time, snatch.stretch = load.stretch;
@@ -78,14 +87,34 @@ class Snatch {
 
 }  // namespace
 
+std::string two_snatch_loads(const SnatchResult& s) {
+  return fmt::format(
+      "two snatch loads: {} N at a speed difference of {} m/s ({}; {}), and {} N at {} m/s ([deployment] of "
+      "the "
+      "case; {}). Lines, riser and hardware are for the larger one. Leave out the one that does not describe "
+      "your "
+      "deployment",
+      rounded(s.load), rounded(s.speed_difference), s.from, s.model, rounded(*s.other_load),
+      rounded(*s.other_speed_difference), deployment_model);
+}
+
 std::optional<SnatchResult> snatch_of(const Settings& resolved, const LoadRequest& request,
                                       const LoadResult& result) {
-  if (!request.snatch_speed && !request.packed_drag_area && !resolved.deployment()) return {};
+  if (!gives_difference(request) && !resolved.deployment()) return {};
   const Snatch snatch(resolved, request, result);
   const std::vector<SnatchPart> parts = stretching_parts(resolved);
   SnatchResult found = snatch.with(parts);
-  const double strength = resolved.materials().line.break_load_n;
-  if (strength > 0) found.line_margin = strength / found.line_load;
+  const Strength line = strength_of(resolved.materials().line),
+                 riser = strength_of(resolved.materials().riser);
+  if (line.value) found.line_margin = *line.value / found.line_load;
+  if (riser.value && resolved.parachute().riser.length_m > 0) found.riser_margin = *riser.value / found.load;
+  if (gives_difference(request) && resolved.deployment()) {
+    LoadRequest other = request;
+    other.snatch_speed.reset(), other.packed_drag_area.reset();
+    const SnatchResult deployed = Snatch(resolved, other, result).with(parts);
+    found.other_load = deployed.load, found.other_speed_difference = deployed.speed_difference;
+  }
+  if (!request.descent) return found;
   for (std::size_t i = 0; i < parts.size(); ++i)
     found.changes.push_back({parts[i].name, snatch.changed(parts, i, 0.5, 1), snatch.changed(parts, i, 2, 1),
                              snatch.changed(parts, i, 1, 0.5), snatch.changed(parts, i, 1, 2)});

@@ -10,6 +10,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/run_folder.h"
+#include "ripstop/run/used_run.h"
 
 namespace ripstop::inline run {
 namespace {
@@ -79,6 +80,7 @@ RunComparison compare_runs(const std::vector<std::filesystem::path>& folders) {
         std::count_if(number.values.begin(), number.values.end(), [](double v) { return !std::isnan(v); });
     if (known > 1) comparison.numbers.push_back(std::move(number));
   }
+  comparison.warnings = warnings_of_shown(folders);
   return comparison;
 }
 

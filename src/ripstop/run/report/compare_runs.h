@@ -25,12 +25,14 @@ void each_member(T& n, Visit&& visit) {
 struct RunComparison {
   std::vector<std::string> runs, titles;
   std::vector<ComparedNumber> numbers;  // in the order of result.json
+  std::vector<std::string> warnings;    // of the runs
 };
 template <Of<RunComparison> T, class Visit>
 void each_member(T& c, Visit&& visit) {
   visit("runs", c.runs);
   visit("titles", c.titles);
   visit("numbers", c.numbers);
+  visit("warnings", c.warnings);
 }
 std::string to_json(const RunComparison& comparison);
 

@@ -16,6 +16,7 @@ ReportRun memory_report(const std::string& kind, const std::string& json, const 
   run.headline = headline_of(kind);
   run.case_file = case_toml(resolved);
   run.tables.push_back(bill_table(resolved));
+  add_unusable(run);
   if (!run.converged) run.warnings.insert(run.warnings.begin(), "The run did not converge.");
   return run;
 }

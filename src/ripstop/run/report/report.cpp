@@ -90,6 +90,7 @@ ReportRun report_of(const fs::path& folder) {
   if (const ReportTable sources = sources_table(resolved, folder / "run.json"); !sources.rows.empty())
     run.tables.push_back(sources);
   if (run.warnings.empty()) run.warnings = warnings_of(resolved, number_of(run, "max_cloth_strain"));
+  add_unusable(run);
   if (!run.converged) run.warnings.insert(run.warnings.begin(), "The coupling did not converge.");
   add_provenance(run, folder / "run.json");
   if (is_flight(run)) {

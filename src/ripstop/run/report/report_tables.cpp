@@ -139,6 +139,12 @@ std::vector<std::string> headline_of(const std::string& kind) {
           "max_line_tension_n", "weakest_member", "margin_of_safety"};
 }
 
+void add_unusable(ReportRun& run) {
+  for (const ReportValue& value : run.values)
+    if (value.key == "usable" && value.json == "false")
+      run.warnings.insert(run.warnings.begin(), "The result of this run must not be used.");
+}
+
 ReportTable bill_table(const Settings& resolved) {
   const PatternResult pattern = run_pattern(resolved, {}, packed_by_hand);
   ReportTable table{"bill",
@@ -157,7 +163,7 @@ ReportTable bill_table(const Settings& resolved) {
                     {}};
   for (const BillRow& row : pattern.bill.rows)
     table.rows.push_back({row.part, row.material, fmt::format("{}", row.count),
-                          fmt::format("{:.3f}", row.cut_each), fmt::format("{:.3f}", row.finished),
+                          fmt::format("{:.3f}", row.cut_each()), fmt::format("{:.3f}", row.finished),
                           fmt::format("{:.3f}", row.cut), row.is_cloth ? "m²" : "m",
                           fmt::format("{:.1f}", 1000 * row.mass)});
   return table;

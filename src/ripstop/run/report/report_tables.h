@@ -18,6 +18,8 @@ void add_result(ReportRun& run, const std::string& json, const std::filesystem::
 std::vector<std::string> headline_of(const std::string& kind);
 
 ReportTable bill_table(const Settings& resolved);
+/// A first warning of a result that must not be used.
+void add_unusable(ReportRun& run);
 /// Values of the case that may be left out, and where each comes from, by run.json.
 ReportTable sources_table(const Settings& resolved, const std::filesystem::path& run_json);
 /// Names and values of run.json, but for the case in it.

@@ -56,6 +56,7 @@ void each_member(T& s, Visit&& visit) {
   visit("blockage", s.blockage);
   visit("speed_m_s", s.air.speed);
   visit("density_kg_m3", s.air.density);
+  visit("air_from", s.air_source);
 }
 
 struct CheckResult {

@@ -22,7 +22,7 @@ void each_member(T& row, Visit&& visit) {
   visit("is_cloth", row.is_cloth);
   visit("finished", row.finished);
   visit("cut", row.cut);
-  visit("cut_each", row.cut_each);
+  visit("cut_each", row.cut_each());
   visit("mass_kg", row.mass);
 }
 

@@ -19,7 +19,9 @@
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/validity.h"
 #include "ripstop/run/json.h"
+#include "ripstop/run/sizing/line_choice.h"
 #include "ripstop/run/sizing/size_case.h"
+#include "ripstop/run/used_run.h"
 
 namespace ripstop::inline run {
 namespace {
@@ -132,74 +134,39 @@ void find_opening(const SizeRequest& request, SizeResult& r) {
   LoadRequest asked;
   asked.payload_mass = request.payload_mass;
   asked.speed = r.deployment_speed;
-  asked.height = request.density ? standard_height(r.density) : std::max(r.height, 100.0);
-  asked.ground = std::min(0.0, std::max(lowest_height, *asked.height - usual_deployment_height));
   asked.drag_coefficient = r.drag_coefficient;
   asked.descent = false;  // only the opening is used
   LoadResult load = run_load(resolve(r.given), asked);
   r.opening_load_low = load.stages.front().lowest, r.opening_load = load.stages.front().highest;
+  r.air_source = std::move(load.air_source);
   r.design_load = load.design_load, r.design_load_from = std::move(load.design_load_from);
+  LoadUncertainty uncertainty = load_uncertainty(
+      {r.drag_coefficient, r.drag_basis + " coefficient", load.drag_uncertainty, r.drag_basis});
+  r.load_uncertainty = uncertainty.value, r.load_uncertainty_from = std::move(uncertainty.from);
+  r.largest_load = (1 + r.load_uncertainty) * r.design_load;
   r.line_load_factor = load.line_load_factor;
   r.margins = std::move(load.margins);
   r.load_warnings = std::move(load.warnings);
   r.opening = std::move(load.stages), r.flight = std::move(load.flight);
 }
 
-/// Load over allowable of `member`, "line" or "riser", made of `line`; 0: its strength is not known.
-double used_of(const SizeResult& r, const Line& line, const char* member) {
-  for (const Margin& m : load_margins(r.given.parachute, r.given.margins, canopy_fabric(r.given), nullptr,
-                                      r.design_load, line, line)
-                             .members)
-    if (m.member == member) return m.used.value_or(0);
-  return 0;
-}
-
-std::vector<Line> library_lines(const SizeRequest& request) {
-  std::vector<Line> lines;
-  for (const std::string& name : library_names()) {
-    if (request.line_material && name != *request.line_material) continue;
-    const Material material = library_material(name);
-    if (const Line* line = std::get_if<Line>(&material)) lines.push_back(*line);
-  }
-  if (request.line_material && lines.empty())
-    throw Error(ExitCode::usage,
-                fmt::format("--line-material {}: the library has no such line", *request.line_material));
-  return lines;
-}
-
-/// The lightest of `lines` that carries the design load as `member`, no lighter than `least`; the strongest if none
-/// does. A given line is the only choice.
-const Line& line_for(const SizeResult& r, const std::vector<Line>& lines, const char* member, double least) {
-  const Line *best = nullptr, *strongest = nullptr;
-  double least_used = 0;
-  for (const Line& line : lines) {
-    const double used = used_of(r, line, member);
-    if (lines.size() > 1 && used == 0) continue;
-    if (!strongest || used < least_used) strongest = &line, least_used = used;
-    if (used > 1 || line.linear_density_kg_m < least) continue;
-    if (!best || line.linear_density_kg_m < best->linear_density_kg_m) best = &line;
-  }
-  if (!best && !strongest) throw Error(ExitCode::bad_data, "the library has no line of known strength");
-  return best ? *best : *strongest;
-}
-
-/// Lines and tape for the design load of the present size. They never become lighter from one call to the next, so that
+/// Lines and tape for the largest load of the present size. They never become lighter from one call to the next, so that
 /// the choice ends. Returns whether something changed.
 bool choose_materials(const std::vector<Line>& lines, SizeResult& r, double& least_line,
                       double& least_riser) {
   Design& design = r.given.parachute;
   const Design before = design;
-  const Line& line = line_for(r, lines, "line", least_line);
+  const Line& line = line_for(r.given, r.largest_load, lines, LineMember::line, least_line);
   least_line = line.linear_density_kg_m;
   design.lines.material = design.riser.material = line.name;
   r.given.materials.insert_or_assign(line.name, line);
   if (design.riser.length_m > 0) {
-    const Line& riser = line_for(r, lines, "riser", least_riser);
+    const Line& riser = line_for(r.given, r.largest_load, lines, LineMember::riser, least_riser);
     least_riser = riser.linear_density_kg_m;
     design.riser.material = riser.name;
     r.given.materials.insert_or_assign(riser.name, riser);
   }
-  TapeMaterial tape = tape_for(r.given, r.line_load_factor * r.design_load / design.lines.count);
+  TapeMaterial tape = tape_for(r.given, r.line_load_factor * r.largest_load / design.lines.count);
   design.tape.material = tape.name;
   r.tape_material = std::move(tape.name), r.tape_source = std::move(tape.from), r.tape_used = tape.used;
   return before.lines.material != design.lines.material || before.riser.material != design.riser.material ||
@@ -253,13 +220,17 @@ bool add_lines(Design& example, double times) {
   return false;
 }
 
+double largest_line_used(const SizeResult& r) {
+  return used_of(r.given, r.largest_load, suspension_line(r.given), LineMember::line);
+}
+
 /// Lines and tape of the library that hold; where none does, more gores and lines share the load.
 void find_parachute(const SizeRequest& request, SizeResult& r) {
-  const std::vector<Line> lines = library_lines(request);
+  const std::vector<Line> lines = library_lines(request.line_material);
   Design example = r.given.parachute;
   find_materials(request, lines, example, r);
   const int count = example.lines.count;
-  const auto used = [&r] { return std::max(used_of(r, suspension_line(r.given), "line"), r.tape_used); };
+  const auto used = [&r] { return std::max(largest_line_used(r), r.tape_used); };
   while (!request.line_material && used() > 1 && add_lines(example, used())) {
     find_materials(request, lines, example, r);
     r.gores_source = fmt::format(
@@ -269,7 +240,15 @@ void find_parachute(const SizeRequest& request, SizeResult& r) {
 
 void warn(const SizeRequest& request, SizeResult& r) {
   r.warnings = r.load_warnings;
-  const StandardAir air = standard_air(request.density ? standard_height(r.density) : r.height);
+  if (const Margin* weak = r.margins ? weakest(*r.margins) : nullptr;
+      weak && *weak->margin >= 0 && *r.smallest_margin < 0)
+    r.warnings.push_back(fmt::format(
+        "under the largest load of {} N, the design load with its uncertainty of {:.0f} %, the {} "
+        "exceeds its allowable load (margin of safety {:+.2f}): the fastest safe deployment "
+        "(ripstop load --fastest) is slower than {:g} m/s; use a stronger material",
+        rounded(r.largest_load), 100 * r.load_uncertainty, r.smallest_margin_member, *r.smallest_margin,
+        r.deployment_speed));
+  const StandardAir air = standard_air(r.height);
   const double reynolds = r.density * request.descent_rate * r.nominal_diameter / air.viscosity;
   for (const std::string& text : outside_range(
            flow_model,
@@ -287,7 +266,7 @@ void describe_parachute(const SizeRequest& request, SizeResult& r) {
   r.given.inflation.drag_coefficient_basis =
       r.drag_basis == "descent" ? InflationSettings::Basis::descent : InflationSettings::Basis::axial;
   find_opening(request, r);
-  r.line_used = used_of(r, suspension_line(r.given), "line");
+  r.line_used = largest_line_used(r);
   const Design& design = r.given.parachute;
   r.nominal_area = nominal_area(design);
   r.nominal_diameter = nominal_diameter(design);
@@ -299,6 +278,9 @@ void describe_parachute(const SizeRequest& request, SizeResult& r) {
   const PartMasses masses = parachute_masses(resolved);
   r.cloth_mass = masses.cloth, r.tape_mass = masses.tape, r.line_mass = masses.lines + masses.riser;
   r.parachute_mass = masses.total;
+  const Margins largest = load_margins(resolved, r.largest_load);
+  if (const Margin* least = weakest(largest))
+    r.smallest_margin = least->margin, r.smallest_margin_member = least->member;
   if (r.handbook_drag_coefficient) {
     const double scale = r.nominal_diameter * std::sqrt(r.drag_coefficient);
     r.handbook_diameter = {scale / std::sqrt(r.handbook_drag_coefficient->at(0)),
@@ -385,7 +367,8 @@ VerifiedDescent::VerifiedDescent(const FlightResult& flight)
       coefficient(flight.coefficient.value_or(0)),
       speed_error(flight.descent_error),
       usable(flight.usable && flight.coefficient),
-      flown(true) {}
+      flown(true),
+      warnings(flight.warnings) {}
 
 std::vector<FamilyDrag> family_drags() {
   const std::filesystem::path file = data_directory() / "examples/families.json";
@@ -427,7 +410,7 @@ SizeResult run_size(const SizeRequest& request) {
   const FamilyDrag drag = drag_of(request.family);
   r.family = request.family, r.type = drag.type;
   r.payload_mass = request.payload_mass, r.descent_rate = request.descent_rate;
-  r.height = request.height;
+  r.height = request.density ? nearest_standard_height(*request.density) : request.height;
   r.density = request.density ? *request.density : standard_air(request.height).density;
   take_coefficient(request, drag, r);
   r.handbook_drag_coefficient = drag.handbook;
@@ -454,19 +437,30 @@ Settings sized_flight(const Settings& sized, double duration_s) {
 void verify_size(const SizeRequest& request, SizeResult& r,
                  const std::function<VerifiedDescent(const Settings&, int run)>& fly, double tolerance) {
   constexpr int most = 4;
+  const std::vector<Line> lines = library_lines(request.line_material);
   for (int run = 1; run <= most; ++run) {
     const VerifiedDescent flown = fly(resolve(parse_case(r.case_text, "the sized case")), run);
     const char* basis = flown.flown ? "descent" : "axial";
     if (!flown.usable)
-      throw Error(ExitCode::not_converged,
-                  fmt::format("--verify: run {} has not converged; its descent rate cannot be used", run));
+      throw Error(
+          ExitCode::not_converged,
+          fmt::format("--verify: run {} has not converged or is beyond a limit of quality; its descent "
+                      "rate cannot be used{}",
+                      run, flown.warnings.empty() ? "" : ": " + flown.warnings.front()));
     r.checks.push_back({r.nominal_diameter, flown.speed, flown.coefficient, basis, flown.speed_error});
     const double known = std::max(tolerance, flown.speed_error.value_or(0) / request.descent_rate);
-    if (std::abs(flown.speed / request.descent_rate - 1) <= known) return;
+    if (std::abs(flown.speed / request.descent_rate - 1) <= known) {
+      add_warnings_of({fmt::format("run {} of --verify", run), flown.warnings}, r.warnings);
+      return;
+    }
     scale_lengths(r.given.parachute, flown.speed / request.descent_rate);
     r.drag_coefficient = flown.coefficient, r.drag_basis = basis;
     r.drag_source = flown.flown ? "in descent, flown by --verify --fly"
                                 : "axial, computed by --verify at the descent rate";
+    find_opening(request, r);
+    double line = suspension_line(r.given).linear_density_kg_m,
+           riser = riser_line(r.given).linear_density_kg_m;
+    choose_materials(lines, r, line, riser);
     describe_parachute(request, r);
   }
   const auto [last, wanted] = rounded_apart(r.checks.back().descent_rate, request.descent_rate);

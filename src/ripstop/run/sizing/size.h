@@ -70,19 +70,25 @@ void each_member(T& c, Visit&& visit) {
 /// Result of a run of --verify, on the axis or in flight.
 struct VerifiedDescent {
   VerifiedDescent(const SteadyResult& run)  // NOLINT(google-explicit-constructor): either result
-      : speed(run.speed), coefficient(run.drag_coefficient), usable(run.converged) {}
+      : speed(run.speed),
+        coefficient(run.drag_coefficient),
+        usable(run.converged && run.usable.value_or(true)),
+        warnings(run.warnings.value_or(std::vector<std::string>{})) {}
   /// Not usable without a mean.
   VerifiedDescent(const FlightResult& flight);  // NOLINT(google-explicit-constructor)
   double speed = 0, coefficient = 0;            // [m/s]
   std::optional<double> speed_error;            // standard error of a flight [m/s]
   bool usable = false;
   bool flown = false;
+  std::vector<std::string> warnings;  // of the run
 };
 
 /// result.json of `ripstop size`, without its case file.
 struct SizeResult {
   std::string family, type;
-  double payload_mass = 0, descent_rate = 0, height = 0, density = 0;
+  double payload_mass = 0, descent_rate = 0;
+  double height = 0, density = 0;  // of descent and opening, above sea level [m], [kg/m3]
+  std::string air_source;
   double drag_coefficient = 0;
   std::string drag_basis, drag_source;                   // "axial", "descent" or "given"; where it comes from
   double axial_coefficient = 0;                          // of the family, in steady flow
@@ -98,11 +104,16 @@ struct SizeResult {
   double packed_volume = 0;                                                 // [m3]
   double deployment_speed = 0;                                              // [m/s]
   double opening_load = 0, opening_load_low = 0;  // range of the methods that apply [N]
-  double design_load = 0;                         // load for the choice of lines, riser and tape [N]
+  double design_load = 0;                         // as of run_load() [N]
   std::string design_load_from;
+  double load_uncertainty = 0;  // of it, relative
+  std::string load_uncertainty_from;
+  double largest_load = 0;  // with its uncertainty: lines, riser, and tape or hem are chosen for it [N]
+  std::optional<double> smallest_margin;  // of safety, of the weakest member under the largest load
+  std::string smallest_margin_member;
   double line_load_factor = 1;     // largest line load over an equal share
   std::optional<Margins> margins;  // of lines and riser under the design load
-  double line_used = 0;            // utilisation of the line with the highest load
+  double line_used = 0;            // utilisation of the weakest line under the largest load
   double tape_used = 0;            // the same of the tape, or of the hem in its place
   std::vector<SizeCheck> checks;
   std::vector<StageLoads> opening;                   // by every method
@@ -119,6 +130,7 @@ void each_member(T& r, Visit&& visit) {
   visit("descent_rate_m_s", r.descent_rate);
   visit("height_m", r.height);
   visit("density_kg_m3", r.density);
+  visit("air_from", r.air_source);
   visit("drag_coefficient", r.drag_coefficient);
   visit("drag_coefficient_basis", r.drag_basis);
   visit("drag_coefficient_from", r.drag_source);
@@ -148,6 +160,11 @@ void each_member(T& r, Visit&& visit) {
   visit("opening_load_low_n", r.opening_load_low);
   visit("design_load_n", r.design_load);
   visit("design_load_from", r.design_load_from);
+  visit("load_uncertainty", r.load_uncertainty);
+  visit("load_uncertainty_from", r.load_uncertainty_from);
+  visit("largest_load_n", r.largest_load);
+  visit("smallest_margin_of_safety", r.smallest_margin);
+  visit("smallest_margin_member", r.smallest_margin_member);
   visit("line_load_factor", r.line_load_factor);
   visit("margins", r.margins);
   visit("line_used", r.line_used);

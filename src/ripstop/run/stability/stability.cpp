@@ -295,6 +295,7 @@ StabilityRow row_of_record(const FlowRecord& record, const Freestream& air, doub
   row.time = record.watched(), row.start_up = record.start_up;
   row.steps = static_cast<int>(record.steps.size());
   row.enough = record.enough;
+  row.mass_defect = record.largest_mass_defect();
   return row;
 }
 

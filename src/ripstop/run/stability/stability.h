@@ -61,9 +61,10 @@ struct StabilityRow {
   std::optional<double> c_t_error, c_n_error, c_m_error;
   double c_d = 0, c_l = 0, c_y = 0;  // drag, lift and side force on the stream's axes
   std::optional<double> c_d_error, c_l_error, c_y_error;
-  double time = 0, start_up = 0;  // of the averaging window, and the part that was discarded [s]
-  int steps = 0;                  // in time, or iterations
-  bool enough = false;            // the standard error of the drag, or the residual, was reached
+  double time = 0, start_up = 0;      // of the averaging window, and the part that was discarded [s]
+  int steps = 0;                      // in time, or iterations
+  bool enough = false;                // the standard error of the drag, or the residual, was reached
+  std::optional<double> mass_defect;  // of a flow in time: largest of a step after the start-up
 };
 template <Of<StabilityRow> T, class Visit>
 void each_member(T& r, Visit&& visit) {
@@ -84,6 +85,7 @@ void each_member(T& r, Visit&& visit) {
   visit("start_up_s", r.start_up);
   visit("steps", r.steps);
   visit("enough", r.enough);
+  visit("mass_defect", r.mass_defect, or_null);
 }
 
 /// An angle at which C_m = 0.
@@ -117,6 +119,7 @@ struct StabilityResult {
   std::vector<Trim> trims;
   std::vector<double> trim_angles, stable_trim_angles;  // [degrees]
   std::vector<std::string> warnings;
+  bool usable = true;  // false: a row, or the steady run on the axis, is beyond a limit of quality
 };
 template <Of<StabilityResult> T, class Visit>
 void each_member(T& r, Visit&& visit) {
@@ -133,6 +136,7 @@ void each_member(T& r, Visit&& visit) {
   visit("trim_angles_deg", r.trim_angles);
   visit("stable_trim_angles_deg", r.stable_trim_angles);
   visit("warnings", r.warnings);
+  visit("usable", r.usable);
 }
 /// Fills trims and warnings from the rows.
 void take_trims(StabilityResult& result);

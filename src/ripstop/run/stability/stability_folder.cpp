@@ -28,6 +28,7 @@
 #include "ripstop/run/steady/checkpoint.h"
 #include "ripstop/run/steady/steady_folder.h"
 #include "ripstop/run/steady/warnings.h"
+#include "ripstop/run/used_run.h"
 
 namespace ripstop::inline run {
 namespace {
@@ -67,8 +68,10 @@ class Curve {
     check_series_folder(settings_.run.folder, description, "curve of ripstop stability");
     if (settings_.steady.empty())
       check_steady_in(axis_settings(), axis_);
-    else
+    else {
       drag_for_opening(settings_.steady, cases_.front());
+      warnings_of_used({settings_.steady});
+    }
     for (std::size_t i = 0; i < cases_.size(); ++i) holds_run(run_settings(i), cases_[i], inputs(i));
   }
 
@@ -342,7 +345,17 @@ void Curve::take_results() {
   take_trims(result_);
   Judgement judgement = judge({{"cells_across", double(result_.cells_across)}});
   judgement.add(air_warnings(cases_.front()));
+  for (const StabilityRow& row : result_.rows) {
+    if (!row.mass_defect) continue;
+    const Judgement of_row = judge({{"mass_defect", *row.mass_defect}});
+    for (const std::string& text : of_row.warnings)
+      judgement.warnings.push_back(fmt::format("{:g} degrees: {}", row.angle, text));
+    judgement.usable = judgement.usable && of_row.usable;
+  }
+  const RunEnd axis = end_of_run(axis_folder());
+  result_.usable = judgement.usable && axis.usable;
   result_.warnings.insert(result_.warnings.end(), judgement.warnings.begin(), judgement.warnings.end());
+  add_warnings_of(axis, result_.warnings);
 }
 
 StabilityResult Curve::run(StabilityObserver& observer) {

@@ -112,6 +112,7 @@ Comparison compare_models(const std::vector<SweepPoint>& points, const std::vect
     c.printed_nonlinear = row->printed_nonlinear_n;
     c.printed_linear = row->printed_linear_n;
   }
+  c.warnings = sweep_warnings(points, rows);
   return c;
 }
 

@@ -62,6 +62,7 @@ struct Comparison {
   double beyond_sum = 0;                               // of each material's alone [N]
   double by_projected_area = 0, by_drag_per_area = 0;  // ln of the drags' ratio, in two parts
   std::optional<double> measured_drag, printed_nonlinear, printed_linear;  // [N]
+  std::vector<std::string> warnings;                                       // of the runs
 };
 template <Of<Comparison> T, class Visit>
 void each_member(T& c, Visit&& visit) {
@@ -75,6 +76,7 @@ void each_member(T& c, Visit&& visit) {
   visit("measured_drag_n", c.measured_drag);
   visit("printed_nonlinear_n", c.printed_nonlinear);
   visit("printed_linear_n", c.printed_linear);
+  visit("warnings", c.warnings);
 }
 std::string to_json(const Comparison& comparison);
 

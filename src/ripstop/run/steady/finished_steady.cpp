@@ -10,6 +10,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/run/run_folder.h"
 #include "ripstop/run/steady/steady_folder.h"
+#include "ripstop/run/used_run.h"
 
 namespace ripstop::inline run {
 
@@ -44,7 +45,12 @@ void require_converged(const SteadyResult& result, const std::string& where) {
 
 FinishedSteady finished_steady(const Settings& resolved, const SteadyResult& result) {
   require_converged(result, "");
-  return {{}, resolved, result, parachute_mass(resolved), drag_uncertainty(result.last)};
+  return {{},
+          resolved,
+          result,
+          parachute_mass(resolved),
+          drag_uncertainty(result.last),
+          warnings_if_usable(end_of_run(to_json(result), "steady run"))};
 }
 
 FinishedSteady finished_steady(const std::filesystem::path& folder) {
@@ -67,6 +73,7 @@ FinishedSteady finished_steady(const std::filesystem::path& folder) {
   FinishedSteady run{folder, resolved, result, parachute_mass(resolved)};
   run.result.last = final_state(folder).iterations.back();
   run.drag_uncertainty = drag_uncertainty(run.result.last);
+  run.warnings = warnings_of_used({folder});
   return run;
 }
 

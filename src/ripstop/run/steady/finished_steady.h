@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "ripstop/case/settings.h"
 #include "ripstop/run/steady/steady.h"
@@ -16,12 +18,13 @@ struct FinishedSteady {
   std::filesystem::path folder;
   Settings resolved;
   SteadyResult result;
-  double parachute_mass = 0;    // [kg]
-  double drag_uncertainty = 0;  // drag_uncertainty() of its last iteration
+  double parachute_mass = 0;               // [kg]
+  double drag_uncertainty = 0;             // drag_uncertainty() of its last iteration
+  std::vector<std::string> warnings = {};  // of the run, after its name
 };
 
 /// Throws Error(usage) for a folder without a finished run of `ripstop steady`, Error(bad_data) for one that is
-/// damaged or has not converged.
+/// damaged, has not converged or must not be used.
 FinishedSteady finished_steady(const std::filesystem::path& folder);
 /// Of a run in memory: its `folder` stays empty. Throws Error(bad_data) for one that has not converged.
 FinishedSteady finished_steady(const Settings& resolved, const SteadyResult& result);

@@ -34,8 +34,11 @@ double dynamic_pressure(const Settings& resolved) {
 
 void take_quality(SteadyResult& r, const Settings& resolved, bool own_mesh) {
   const auto gap = [&](double force) { return std::abs(force / r.ledger.fluid_force - 1); };
-  Judgement judgement = judge({{"ledger_gap", std::max(gap(r.ledger.nodal_load), gap(r.ledger.line_tension))},
-                               {"momentum_deficit_gap", gap(r.ledger.momentum_deficit)}});
+  std::vector<QualityValue> values = {
+      {"ledger_gap", std::max(gap(r.ledger.nodal_load), gap(r.ledger.line_tension))},
+      {"momentum_deficit_gap", gap(r.ledger.momentum_deficit)}};
+  if (r.unsteady) values.push_back({"mass_defect", r.unsteady->watched.mass_defect});
+  Judgement judgement = judge(values);
   if (r.cluster) judgement.add(cluster_warnings(*r.cluster));
   judgement.add(margin_warnings(r.margins));
   judgement.add(warnings_of(resolved, r.stress.strain, own_mesh));

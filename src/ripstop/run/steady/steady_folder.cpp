@@ -23,6 +23,7 @@
 #include "ripstop/run/steady/checkpoint.h"
 #include "ripstop/run/steady/watch_files.h"
 #include "ripstop/run/stress_arrays.h"
+#include "ripstop/run/used_run.h"
 
 namespace ripstop::inline run {
 namespace {
@@ -261,8 +262,9 @@ struct RunOfFolder {
 RunOfFolder run_of_folder(const fs::path& folder) {
   const std::optional<std::string> text = finished_result(folder);
   if (!text)
-    throw Error(ExitCode::usage,
-                fmt::format("{}: contains no finished run of ripstop steady", folder.string()));
+    throw Error(ExitCode::usage, fmt::format("{0}: contains no finished run of ripstop steady; compute one "
+                                             "with: ripstop steady CASE --out {0}",
+                                             folder.string()));
   return {settings_of_run(folder), steady_result_from_json(*text)};
 }
 
@@ -270,7 +272,10 @@ void require_for_opening(const Settings& resolved, const SteadyResult& result, c
                          const Settings& opening) {
   require_one_canopy(resolved, "an opening");
   if (!result.converged)
-    throw Error(ExitCode::bad_data, fmt::format("{}: the steady run has not converged", where));
+    throw Error(
+        ExitCode::bad_data,
+        fmt::format("{}: the steady run has not converged; increase coupling.max_iterations and continue it",
+                    where));
   require_same_parachute(resolved, where, opening);
 }
 
@@ -306,14 +311,15 @@ LoadSource steady_load(const Settings& resolved, const SteadyResult& result, con
                        const Settings& opening) {
   if (!result.payload) {
     const double drag = drag_for_opening(resolved, result, where, opening);
-    return {fmt::format("{}: {:.4g} N", where, drag), drag};
+    return {fmt::format("{}: {:.4g} N", where, drag), drag,
+            warnings_if_usable(end_of_run(to_json(result), where))};
   }
   require_for_opening(resolved, result, where, opening);
   const double speed = opening.flow().speed_m_s;
   const double drag = result.drag_area * 0.5 * opening.flow().density_kg_m3 * speed * speed;
   return {fmt::format("{}: drag area of {:.4g} m2 at {:.4g} m/s, {:.4g} N at {:g} m/s", where,
                       result.drag_area, result.speed, drag, speed),
-          drag};
+          drag, warnings_if_usable(end_of_run(to_json(result), where))};
 }
 
 void require_same_parachute(const Settings& resolved, const std::string& where, const Settings& opening) {
@@ -333,8 +339,9 @@ void require_same_parachute(const Settings& resolved, const std::string& where, 
 SteadyState final_state(const fs::path& folder) {
   const fs::path checkpoint = folder / "checkpoint";
   if (!fs::exists(folder / "result.json"))
-    throw Error(ExitCode::usage,
-                fmt::format("{}: contains no finished run of ripstop steady", folder.string()));
+    throw Error(ExitCode::usage, fmt::format("{0}: contains no finished run of ripstop steady; compute one "
+                                             "with: ripstop steady CASE --out {0}",
+                                             folder.string()));
   if (!fs::exists(checkpoint / "current"))
     throw Error(ExitCode::bad_data, fmt::format("{}: is missing; compute the run again with --fresh",
                                                 (checkpoint / "current").string()));

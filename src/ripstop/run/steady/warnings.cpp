@@ -93,13 +93,35 @@ std::vector<std::string> linear_law_warnings(const Fabric& cloth) {
                   cloth.name, cfm(law))};
 }
 
+/// Coefficients of porous cells are valid on the cells of their calibration: their resistance is one per volume, and the
+/// cells that the cloth cuts have a volume in proportion to their size.
+std::vector<std::string> porous_cell_warnings(const Settings& resolved) {
+  constexpr double nfm_darcy = 65.98, nfm_forchheimer = 37.45;  // [NFM] Table 3
+  const Fabric& cloth = resolved.materials().canopy;
+  const PorousCellLaw law = as_cells(cloth.resistance);
+  if (!(law.darcy > 0) && !(law.forchheimer > 0)) return {};  // impermeable, or without resistance
+  const Vec3 cell = flow_grid(resolved.flow()).spacing({0, 0, resolved.flow().canopy_position_m});
+  if (law.darcy != nfm_darcy || law.forchheimer != nfm_forchheimer)
+    return {
+        fmt::format("materials.{}: coefficients of porous cells (porosity_model = \"paper\") give the right "
+                    "drag only on the cells of their calibration, which a material does not contain; the "
+                    "cells at this canopy are {:.3g} x {:.3g} x {:.3g} m",
+                    cloth.name, cell.x, cell.y, cell.z)};
+  std::vector<std::string> all = outside_range(
+      porous_cells_model,
+      {{"cell width across the stream", std::max(cell.x, cell.y)}, {"cell length along the stream", cell.z}});
+  for (std::string& text : all)
+    text += "; use these cells (flow.cells, flow.box_m), or a cloth for porosity_model = \"sheet\"";
+  return all;
+}
+
 }  // namespace
 
 std::vector<std::string> porosity_warnings(const Settings& resolved) {
   const Fabric& cloth = resolved.materials().canopy;
   const PorosityModel used = resolved.flow().porosity_model;
   if (used == model_of(cloth.resistance))
-    return used == PorosityModel::sheet ? linear_law_warnings(cloth) : std::vector<std::string>();
+    return used == PorosityModel::sheet ? linear_law_warnings(cloth) : porous_cell_warnings(resolved);
   const auto word = [](PorosityModel model) { return model == PorosityModel::paper ? "paper" : "sheet"; };
   return {
       fmt::format("flow.porosity_model = \"{}\", but the permeability of materials.{} is for \"{}\" "
@@ -162,11 +184,13 @@ Warnings air_warnings(const Settings& resolved) {
 }
 
 Warnings case_warnings(const Settings& resolved) {
-  return joined({mesh_warnings(resolved), flow_warnings(resolved), shape_warnings(resolved)});
+  return warnings_of(resolved, 0);
 }
 
 Warnings warnings_of(const Settings& resolved, double largest_cloth_strain, bool own_mesh) {
-  return joined({own_mesh ? flow_warnings(resolved) : case_warnings(resolved),
+  const Warnings none;
+  return joined({own_mesh ? none : mesh_warnings(resolved), flow_warnings(resolved),
+                 own_mesh ? none : shape_warnings(resolved),
                  strain_warnings(resolved, largest_cloth_strain)});
 }
 

@@ -20,10 +20,10 @@ std::vector<std::string> range_warnings(const Settings& resolved);
 std::vector<std::string> air_warnings(const Settings& resolved);
 /// Of a profile whose apex is pulled down.
 std::vector<std::string> shape_warnings(const Settings& resolved);
-/// Warnings before the computation: the five above.
-std::vector<std::string> case_warnings(const Settings& resolved);
-/// Materials stretched beyond their tests, and such.
+/// Of the materials: see material_warnings().
 std::vector<std::string> strain_warnings(const Settings& resolved, double largest_cloth_strain);
+/// Warnings before the computation: those above, of unstretched cloth.
+std::vector<std::string> case_warnings(const Settings& resolved);
 /// All of them. With a mesh of the user's own: without those of the mesh and shape of the case.
 std::vector<std::string> warnings_of(const Settings& resolved, double largest_cloth_strain,
                                      bool own_mesh = false);

@@ -21,8 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Assumed: one machine of a cluster has at least so many cores to share.
-constexpr int usual_cores = 4;
 // Assumed for a flow that converges; another one continues to its largest number of iterations.
 constexpr double usual_iterations = 300, usual_couplings = 10;
 constexpr double shortest_limit = 1, longest_limit = 168;  // [h]

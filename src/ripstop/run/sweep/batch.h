@@ -17,7 +17,9 @@ struct BatchNeeds {
   double hours = 0;     // time limit
   std::string limited;  // where the time limit comes from, for a comment
 };
-/// Of a steady run. `cores` 0: coupling.threads, else four where there is one rank.
+/// Assumed: one machine of a cluster has at least so many cores.
+constexpr int usual_cores = 4;
+/// Of a steady run. `cores` 0: coupling.threads, else usual_cores where there is one rank.
 BatchNeeds steady_needs(const Settings& resolved, int cores = 0);
 /// Of an opening.
 BatchNeeds opening_needs(const Settings& resolved, int threads, int cores = 0);

@@ -19,6 +19,7 @@
 #include "ripstop/core/thread_team.h"
 #include "ripstop/run/engine.h"
 #include "ripstop/run/steady/steady_folder.h"
+#include "ripstop/run/used_run.h"
 
 namespace ripstop::inline run {
 namespace {
@@ -393,6 +394,14 @@ std::vector<SweepRow> gather_sweep(const std::vector<SweepPoint>& points, const 
   if (all && !settings.fields)
     for (const SweepPoint& point : points) drop_flow_checkpoint(settings.folder / point.folder);
   return rows;
+}
+
+std::vector<std::string> sweep_warnings(const std::vector<SweepPoint>& points,
+                                        const std::vector<SweepRow>& rows) {
+  std::vector<RunEnd> ends;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (rows[i].done) ends.push_back(end_of_run(to_json(rows[i].result), points[i].folder));
+  return grouped_warnings(ends);
 }
 
 }  // namespace ripstop::inline run

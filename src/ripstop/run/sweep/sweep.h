@@ -61,6 +61,10 @@ struct SweepRow {
   SteadyState state;  // the last one of a sweep in memory; else final_state() of the run's folder has it
 };
 
+/// Warnings of the runs that have a result: each text once, after the folders of its runs.
+std::vector<std::string> sweep_warnings(const std::vector<SweepPoint>& points,
+                                        const std::vector<SweepRow>& rows);
+
 /// Called by one run at a time.
 struct SweepEvents {
   std::function<void(std::size_t point, const SteadyProgress&, const SteadyState&)> progress;

@@ -34,7 +34,9 @@ std::optional<std::size_t> drawn_axis(const std::vector<SweepAxis>& axes) {
 }
 
 std::string status_of(const SweepRow& row) {
-  if (row.done) return row.result.converged ? "converged" : "not converged";
+  if (row.done && row.result.converged)
+    return row.result.usable.value_or(true) ? "converged" : "converged, must not be used";
+  if (row.done) return "not converged";
   return row.error.empty() ? "waiting" : "failed: " + row.error;
 }
 
@@ -123,6 +125,7 @@ std::string sweep_json(const std::string& title, const std::vector<SweepAxis>& a
                        const std::vector<SweepPoint>& points, const std::vector<SweepRow>& rows) {
   nlohmann::ordered_json j;
   j["title"] = title;
+  j["warnings"] = sweep_warnings(points, rows);
   j["runs"] = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < points.size(); ++i) {
     nlohmann::ordered_json run;
