@@ -212,6 +212,9 @@ endef
 test-debian13:  ## Build, tests and demo in an empty root of Debian 13, made by debootstrap (as root), into docs/tables: an hour
 	$(call test_debian,13)
 
+wheel-debian13:  ## The wheel for Python 3.13, made in an empty root of Debian 13 (as root), into build/wheel
+	$(call test_debian,13 --wheel)
+
 test-debian12:  ## The same in an empty root of Debian 12
 	$(call test_debian,12)
 

@@ -35,7 +35,9 @@ TEST(JobQueue, RunsOneAfterTheOtherAndKeepsTheirOutput) {
   const TemporaryFolder folder("ripstop-jobs");
   JobQueue queue(folder.path, "/bin/sh");
   queue.add(a_job("first", {"-c", "echo one; sleep 0.2; echo two"}));
-  queue.add(a_job("second", {"-c", "echo 'ripstop: no such thing:' >&2; echo '  a thing' >&2; exit 2"}));
+  queue.add(a_job(
+      "second",
+      {"-c", "echo 'ripstop: no such thing:' >&2; echo '  a thing' >&2; echo 'Example: x' >&2; exit 2"}));
   EXPECT_EQ(state_after(queue, "first", JobState::finished), JobState::finished);
   EXPECT_EQ(queue.log("first"), (std::vector<std::string>{"one", "two"}));
   EXPECT_EQ(state_after(queue, "second", JobState::failed), JobState::failed);

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The README's two commands, `make demo` and `make check`, in a root of another Debian release: a row of docs/tables/systems.md.
+"""The README's two commands, `make demo` and `make check`, in a root of another Debian release: a row of docs/tables/systems.md. With
+--wheel only `make wheel`, for the Python of that release.
 
 debootstrap makes the root once, from the packages of the release alone. A clean clone of this repository's last commit is built and
 tested in it by chroot. Packages come from apt; after their installation the commands have no network. Run it as root."""
@@ -76,6 +77,15 @@ def run_in(root, command, network=False, log=None):
     return time.monotonic() - start
 
 
+def make_wheel(root, jobs):
+    """The wheel for the Python of the root, copied to build/wheel of this repository."""
+    run_in(root, f"make wheel JOBS={jobs}", network=True)
+    folder = ROOT / "build/wheel"
+    folder.mkdir(parents=True, exist_ok=True)
+    for file in (root / "ripstop/build/wheel").glob("*.whl"):
+        print(shutil.copy(file, folder))
+
+
 def processor():
     name = re.search(r"model name\s*: (.*)", pathlib.Path("/proc/cpuinfo").read_text())
     return f"{name[1] if name else 'unknown'}, {len(os.sched_getaffinity(0))} cores"
@@ -96,6 +106,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)))
     parser.add_argument("--ccache", action="store_true", help="compile through ccache, for repeated runs: no row in the table")
     parser.add_argument("--tests", metavar="REGEX", help="only these tests: no row in the table")
+    parser.add_argument("--wheel", action="store_true", help="only the wheel for the Python of this release, into build/wheel")
     options = parser.parse_args()
     if os.geteuid() != 0:
         raise SystemExit("chroot needs root: run this as root or with sudo")
@@ -106,6 +117,9 @@ def main():
         ENVIRONMENT["CCACHE_SLOPPINESS"] = "pch_defines,time_macros,include_file_mtime,include_file_ctime"
 
     run_in(root, "apt-get update -q && apt-get install -y -q make git" + (" ccache" if options.ccache else ""), network=True)
+    if options.wheel:
+        make_wheel(root, options.jobs)
+        return
     packages = run_in(root, "make check-deps", network=True)
     demo = 0 if options.tests else run_in(root, f"make demo JOBS={options.jobs}")
     log = []

@@ -48,13 +48,15 @@ fs::path records_in(const fs::path& folder) {
   return records;
 }
 
-/// The last message of the program in the output of a failed run, with the problems that it lists.
+/// The last message of the program in the output of a failed run, with the problems that it lists. An example of the
+/// command line is left out: Studio has a form.
 std::string message_in(const std::vector<std::string>& lines) {
   const auto last = std::find_if(lines.rbegin(), lines.rend(),
                                  [](const std::string& line) { return line.starts_with("ripstop: "); });
   if (last == lines.rend()) return lines.empty() ? "" : lines.back();
   std::string message = last->substr(9);
-  for (auto line = last.base(); line != lines.end(); ++line) message += "\n" + *line;
+  for (auto line = last.base(); line != lines.end(); ++line)
+    if (!line->starts_with("Example: ")) message += "\n" + *line;
   return message;
 }
 
