@@ -71,6 +71,9 @@ void print(const Settings& resolved, const CaseSummary& s, std::size_t warnings)
                   s.cloth_nodes, resolved.parachute().mesh.cloth_nodes, s.resolved_cloth_nodes));
   row("springs",
       fmt::format("{}, the shortest {:.3g} mm ({})", s.springs, 1000 * s.smallest_spring, s.smallest_part));
+  if (const auto& cluster = resolved.written().cluster)
+    row("cluster", fmt::format("{} canopies at {:g} deg to its axis; all values above are of one of them",
+                               cluster->canopies, cluster->spread_angle_deg));
   row("stable step", fmt::format("{:.3g} s, limited by {}; the estimate of [NFM] is {:.3g} s",
                                  s.step.stable_step, s.step.part, s.step.printed_step));
   row("flow domain",

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -18,6 +19,7 @@
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/cost.h"
 #include "ripstop/core/error.h"
+#include "ripstop/core/words.h"
 #include "ripstop/fsi/convergence.h"
 #include "ripstop/run/engine.h"
 #include "ripstop/run/report/report.h"
@@ -61,6 +63,36 @@ void print_unsteady(const UnsteadyResult& unsteady) {
                                     : ""));
 }
 
+void print_cluster(const ClusterResult& cluster, double area) {
+  const std::size_t count = cluster.canopies.size();
+  print_row("cluster",
+            fmt::format("{} canopies at {:.4g} deg to the axis, S0 = {:.4f} m2 each; smallest gap {:.3g} m",
+                        count, cluster.spread_angle_deg, area / double(count), cluster.gap));
+  print_row("", fmt::format("forces inclined {} by {:.2g} deg; riser loads differ by {:.2g} %",
+                            cluster.force_angle_deg > 0 ? "outward" : "inward",
+                            std::abs(cluster.force_angle_deg), 100 * cluster.difference));
+  if (cluster.cluster_factor)
+    print_row("cluster factor",
+              fmt::format("{:.3f}, drag coefficient over that of one canopy", *cluster.cluster_factor));
+  for (std::size_t k = 0; k < count; ++k) {
+    const ClusterCanopy& canopy = cluster.canopies[k];
+    print_row(fmt::format("canopy {}", k + 1).c_str(),
+              fmt::format("riser load {:.1f} N, largest line load {:.2f} N, projected diameter {:.3f} m",
+                          canopy.force, canopy.max_line_tension, canopy.projected_diameter));
+  }
+}
+
+/// The members of the canopies that remain.
+void print_failure(const ClusterResult& cluster) {
+  const auto count = double(cluster.canopies.size());
+  const Margin* least = weakest(cluster.one_failed);
+  print_row("one canopy failed",
+            fmt::format("{} times the load of each of the others{}", rounded(count / (count - 1)),
+                        least ? fmt::format("; weakest member {}: margin of safety {:+.2f}", least->member,
+                                            *least->margin)
+                              : std::string()));
+}
+
 void print_result(const SteadyResult& r, const Settings& resolved, const fs::path& folder) {
   const auto row = print_row;
   print_text("\n{}\n", r.title);
@@ -85,17 +117,19 @@ void print_result(const SteadyResult& r, const Settings& resolved, const fs::pat
                       ? fmt::format("; in descent {:.2f} to {:.2f} (Knacke)", r.known_drag_coefficient->at(0),
                                     r.known_drag_coefficient->at(1))
                       : ""));
-  row("", fmt::format("{:.4f} on the projected area of {:.4f} m2", r.drag_area / r.size.projected_area,
-                      r.size.projected_area));
+  const double projected = r.size.projected_area * (r.cluster ? double(r.cluster->canopies.size()) : 1);
+  row("", fmt::format("{:.4f} on the projected area of {:.4f} m2", r.drag_area / projected, projected));
   row("projected diameter", fmt::format("{:.3f} m", r.size.projected_diameter));
   row("skirt diameter", fmt::format("{:.3f} m", r.size.skirt_diameter));
   print_stresses(r.max_line_tension, r.stress);
+  if (r.cluster) print_cluster(*r.cluster, r.reference_area);
   for (const BodyResult& body : r.bodies.value_or(std::vector<BodyResult>()))
     row(("body " + body.name).c_str(),
         fmt::format("drag {:.3g} N, coefficient {:.3f} on {:.4g} m2; side force {:.2g} N", body.drag,
                     body.drag_coefficient, body.reference_area, body.side));
   print_payload(r);
   print_margins(r.margins);
+  if (r.cluster) print_failure(*r.cluster);
   row("force balance",
       fmt::format("air load {:.2f}, cloth load {:.2f}, line load {:.2f}, momentum deficit {:.2f} N",
                   r.last.fluid_force, r.last.nodal_load, r.last.line_tension, r.last.momentum_deficit));

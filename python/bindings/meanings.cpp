@@ -4,7 +4,8 @@
 #include <map>
 #include <string_view>
 
-#include "meanings_table.h"
+#include "meanings_of_design.h"
+#include "meanings_of_runs.h"
 #include "ripstop/core/words.h"
 
 namespace ripstop::python {
@@ -12,11 +13,13 @@ namespace {
 
 std::map<std::string_view, std::string_view> parsed() {
   std::map<std::string_view, std::string_view> meanings;
-  for (std::string_view rest = meanings_table; !rest.empty();) {
-    const std::string_view line = rest.substr(0, rest.find('\n'));
-    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
-    if (const std::size_t colon = line.find(": "); colon != std::string_view::npos && line[0] != '#')
-      meanings.emplace(line.substr(0, colon), line.substr(colon + 2));
+  for (std::string_view rest : {meanings_of_runs, meanings_of_design}) {
+    while (!rest.empty()) {
+      const std::string_view line = rest.substr(0, rest.find('\n'));
+      rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+      if (const std::size_t colon = line.find(": "); colon != std::string_view::npos && line[0] != '#')
+        meanings.emplace(line.substr(0, colon), line.substr(colon + 2));
+    }
   }
   return meanings;
 }

@@ -59,7 +59,7 @@ void compute(PySteady& run, SteadyListener& observer, int threads, bool fresh, c
     if (done.already_finished) run.state = final_state(run.folder);
     run.result.last = run.state.iterations.back();
   }
-  run.cells = cells_of(parachute_mesh(resolved, run.own_mesh.get()));
+  run.cells = cells_of(steady_mesh(resolved, run.own_mesh.get()));
 }
 
 std::unique_ptr<PySteady> steady(const PyCase& given, Callback<SteadyIteration> progress, int threads,
@@ -179,6 +179,8 @@ void add_steady(py::module_& module) {
   add_class<Margin>(module, "Margin",
                     "Margin of safety of one part; `unit` is the unit of load and strength.");
   add_class<Margins>(module, "Margins", "Margins of safety of all parts.");
+  add_class<ClusterCanopy>(module, "ClusterCanopy", "Loads on one canopy of a cluster.");
+  add_class<ClusterResult>(module, "ClusterResult", "Angles and loads of a cluster of canopies.");
   add_class<SteadyIteration>(module, "SteadyIteration", "Values of one coupling iteration.");
   add_flow(module);
   py::class_<PySteady> type(module, "Steady",
@@ -191,7 +193,7 @@ void add_steady(py::module_& module) {
     const Settings resolved = run.made.settings();
     ReportRun shown = memory_report("steady", to_json(run.result), resolved);
     shown.plots = iteration_plots(memory_table(run.state.iterations));
-    shown.shape = memory_shape(parachute_mesh(resolved, run.own_mesh.get()), run.state.shape, run.stress);
+    shown.shape = memory_shape(steady_mesh(resolved, run.own_mesh.get()), run.state.shape, run.stress);
     return shown;
   });
   type.def_property_readonly(

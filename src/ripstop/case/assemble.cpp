@@ -7,6 +7,7 @@
 
 #include "ripstop/canopy/mirror.h"
 #include "ripstop/case/bodies.h"
+#include "ripstop/case/cluster.h"
 #include "ripstop/case/cost.h"
 #include "ripstop/case/payload.h"
 #include "ripstop/core/error.h"
@@ -45,6 +46,17 @@ double mass_beyond(const CanopyMesh& mesh, const Settings& resolved) {
 CanopyMesh parachute_mesh(const Design& design, const Settings& resolved) {
   require_cloth_memory(design);
   return in_flow(build_mesh(design, resolved.materials()), resolved);
+}
+
+std::optional<Cluster> cluster_of(const Settings& resolved) {
+  const std::optional<ClusterKeys>& keys = resolved.written().cluster;
+  if (!keys) return {};
+  return Cluster(parachute_mesh(resolved), layout_of(*keys));
+}
+
+CanopyMesh steady_mesh(const Settings& resolved, const CanopyMesh* own) {
+  const std::optional<Cluster> cluster = cluster_of(resolved);
+  return cluster ? cluster->mesh() : parachute_mesh(resolved, own);
 }
 
 FlowProblem flow_problem(const Settings& resolved) {
@@ -106,13 +118,16 @@ std::string why_full_box(const Settings& resolved, const SteadyProblem& problem)
 
 SteadyProblem steady_problem(const Settings& resolved, const CanopyMesh* own) {
   require_axial_stream(resolved.flow(), "a steady run");
-  SteadyProblem problem{parachute_mesh(resolved, own),
+  if (own) require_one_canopy(resolved, "a run with a mesh of your own");
+  SteadyProblem problem{steady_mesh(resolved, own),
                         flow_problem(resolved),
                         own ? cloth_area(*own) : nominal_area(resolved.parachute()),
                         resolved.coupling(),
                         std::nullopt,
                         {}};
   problem.own_mesh = own != nullptr;
+  problem.cluster = cluster_of(resolved);
+  problem.reference_area *= canopy_count(resolved.written());
   if (const FlowSettings& flow = resolved.flow(); flow.unsteady) {
     const WatchKeys& keys = flow.watch;
     problem.averaging_window = {keys.courant, keys.standard_error, keys.shortest, keys.longest,

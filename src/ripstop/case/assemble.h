@@ -2,10 +2,13 @@
 // problem.
 #pragma once
 
+#include <optional>
+
 #include "ripstop/case/settings.h"
 #include "ripstop/flow/flow.h"
 #include "ripstop/fsi/steady_loop.h"
 #include "ripstop/parachute/build.h"
+#include "ripstop/parachute/cluster.h"
 
 namespace ripstop::inline cases {
 
@@ -14,6 +17,10 @@ namespace ripstop::inline cases {
 /// that one, its plane z = 0 at flow.canopy_position_m.
 CanopyMesh parachute_mesh(const Settings& resolved, const CanopyMesh* own = nullptr);
 CanopyMesh parachute_mesh(const Design& design, const Settings& resolved);
+/// The canopies of a cluster; absent for a single one.
+std::optional<Cluster> cluster_of(const Settings& resolved);
+/// The mesh of a steady run: of all canopies. Otherwise parachute_mesh().
+CanopyMesh steady_mesh(const Settings& resolved, const CanopyMesh* own = nullptr);
 /// The same with parachute_mass(): hems, allowances and loops of lines, which the mesh does not have, are added to all
 /// of its nodes in proportion.
 CanopyMesh mesh_as_cut(const Settings& resolved);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "ripstop/case/case.h"
+#include "ripstop/case/cluster.h"
 #include "ripstop/case/settings.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/toml/fields.h"
@@ -160,6 +161,7 @@ std::vector<FlowBody> rigid_bodies(const Settings& resolved) {
 }
 
 void require_canopy_alone(const Settings& resolved, const char* what) {
+  require_one_canopy(resolved, what);
   if (resolved.written().bodies.empty()) return;
   throw Error(
       ExitCode::usage,

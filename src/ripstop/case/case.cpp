@@ -54,6 +54,8 @@ void describe(Fields& fields, Case& given) {
       .required();
   fields.named_tables("body", given.bodies,
                       "Rigid bodies upstream of the canopy, such as the rocket or the capsule: [body.NAME].");
+  fields.table("cluster", given.cluster,
+               "A cluster of equal canopies in place of one: `ripstop steady` only, experimental.");
   fields.table("coupling", given.coupling, "Steady coupling of cloth and flow.");
   fields.table("inflation", given.inflation, "The opening of the folded canopy.");
   fields.table("deployment", given.deployment,

@@ -10,6 +10,7 @@
 
 #include "ripstop/canopy/margins.h"
 #include "ripstop/case/bodies.h"
+#include "ripstop/case/cluster.h"
 #include "ripstop/core/toml/problem.h"
 #include "ripstop/core/toml/set.h"
 #include "ripstop/core/vec3.h"
@@ -144,6 +145,7 @@ struct Case {
       materials;  // by name; other materials that the parachute names are those of the library
   FlowKeys flow;
   std::map<std::string, BodyKeys> bodies;  // by name
+  std::optional<ClusterKeys> cluster;      // absent: one canopy
   CouplingKeys coupling;
   InflationSettings inflation;
   std::optional<DeploymentKeys> deployment;

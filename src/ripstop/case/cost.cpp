@@ -7,6 +7,7 @@
 #include <fstream>
 #include <optional>
 
+#include "ripstop/case/cluster.h"
 #include "ripstop/core/error.h"
 #include "ripstop/flow/openfoam/openfoam.h"
 
@@ -58,7 +59,7 @@ Cost cost_of(const Settings& resolved) {
   Cost cost;
   const Design& design = resolved.parachute();
   const FlowSettings& flow = resolved.flow();
-  cost.nodes = node_estimate(design);
+  cost.nodes = canopy_count(resolved.written()) * node_estimate(design);
   cost.cells = double(flow.cells[0]) * flow.cells[1] * flow.cells[2];
   if (flow.cloth_levels > 0)
     cost.cells = fitted_cells(flow_grid(flow), nominal_area(design), flow.cloth_levels);

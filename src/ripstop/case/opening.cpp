@@ -10,6 +10,7 @@
 
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/bodies.h"
+#include "ripstop/case/cluster.h"
 #include "ripstop/case/cost.h"
 #include "ripstop/case/deployment.h"
 #include "ripstop/core/error.h"
@@ -122,6 +123,7 @@ LoadSource load_source(const Settings& opening) {
 InflationProblem opening_problem(const Settings& opening, const LoadSource& source, int threads,
                                  const std::function<void()>& alive) {
   require_axial_stream(opening.flow(), "an opening");
+  require_one_canopy(opening, "an opening");
   InflationProblem problem;
   problem.mesh = parachute_mesh(opening);
   problem.settings = opening.inflation();

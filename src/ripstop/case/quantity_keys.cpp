@@ -20,6 +20,8 @@ const std::vector<std::pair<std::string, std::string>>& quantity_keys() {
       {"low-pass cutoff", "inflation.low_pass_hz"},
       {"the history rate", "inflation.history_hz"},
       {"number of folds", "inflation.folds"},
+      {"spread angle", "cluster.spread_angle_deg"},
+      {"length of the riser", "parachute.riser.length_m"},
       {"slack of the lines", "inflation.slack_m"},
       {"number of cloth nodes", "parachute.mesh.cloth_nodes"},
       {"length of lines on the canopy", "parachute.lines.onto_disk_m"},

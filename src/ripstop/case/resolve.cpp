@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "ripstop/case/bodies.h"
+#include "ripstop/case/cluster.h"
 #include "ripstop/case/tape.h"
 #include "ripstop/core/words.h"
 #include "ripstop/flight/atmosphere.h"
@@ -140,6 +141,52 @@ Room room_for_bodies(const Case& written, const FlowSettings& flow, double d) {
   return room;
 }
 
+/// The default domain of a cluster, along each axis.
+struct ClusterRoom {
+  Vec3 core, box;              // by which both are larger than for one canopy [m]
+  double upstream = 0;         // the part of it upstream of the skirts [m]
+  std::array<int, 3> cells{};  // more, for cells as wide as those of one canopy
+};
+
+/// The box is that of one canopy times the root of their number: in relation to the area of all canopies it is as wide
+/// and as long. It extends at least as far from the outer canopies.
+ClusterRoom room_for_cluster(const Case& written, const FlowSettings& flow, double d) {
+  ClusterRoom room;
+  if (!written.cluster || flow.porosity_model != PorosityModel::sheet) return room;
+  const double wider = std::sqrt(double(written.cluster->canopies)) - 1, growth = sheet_defaults.growth;
+  room.core = room_for_cluster(written, d);
+  const Vec3 box = d * sheet_box;
+  const auto widest = [&](double one, double core, double more) {
+    return std::max({wider * one, more, least_box_over_core * (core + more) - one});
+  };
+  room.box = {widest(box.x, d * sheet_core.x, room.core.x), widest(box.y, d * sheet_core.y, room.core.y),
+              wider * box.z + room.core.z};
+  room.upstream = wider * d * sheet_skirt + 0.5 * room.core.z;
+  FlowSettings alone;
+  alone.box_m = box, alone.cells = sheet_defaults.cells;
+  alone.core.size_m = d * sheet_core, alone.core.growth = growth;
+  alone.core.start_m = d * (sheet_skirt - 0.25 * sheet_core.z);
+  const Vec3 cell = flow_grid(alone).spacing();
+  // Cells that grow from `h` by `growth` over a width.
+  const auto growing = [&](double width, double h) {
+    return std::log1p(width * (growth - 1) / (growth * h)) / std::log(growth);
+  };
+  const auto more = [&](double outside, double wider_by, double h) {
+    return growing(outside + wider_by, h) - growing(outside, h);
+  };
+  const auto across = [&](double outside, double larger_box, double larger_core, double h) {
+    const double added = 2 * more(outside, 0.5 * (larger_box - larger_core), h);
+    return 2 * static_cast<int>(std::ceil(0.5 * (larger_core / h + added)));
+  };
+  const Vec3 outside = 0.5 * d * (sheet_box - sheet_core);
+  const double before = alone.core.start_m, behind = box.z - before - alone.core.size_m.z;
+  const double along = room.core.z / cell.z + more(before, wider * d * sheet_skirt, cell.z) +
+                       more(behind, wider * (box.z - d * sheet_skirt), cell.z);
+  room.cells = {across(outside.x, room.box.x, room.core.x, cell.x),
+                across(outside.y, room.box.y, room.core.y, cell.y), static_cast<int>(std::ceil(along))};
+  return room;
+}
+
 struct BoxDefault {
   Vec3 size;
   std::string from;
@@ -170,13 +217,15 @@ BoxDefault default_box(const FlowSettings& flow, const TunnelKeys& given, double
                                                            jet_box_behind, sheet_box.z - sheet_skirt))};
 }
 
-void resolve_core(Follow& follow, double d, const Room& room, FlowKeys& keys, FlowSettings& flow) {
+void resolve_core(Follow& follow, double d, const Room& room, const ClusterRoom& cluster, FlowKeys& keys,
+                  FlowSettings& flow) {
   const bool sheet = flow.porosity_model == PorosityModel::sheet;
   const std::string model = sheet ? "default of the sheet model" : "default of the paper model";
   const Vec3 box = flow.box_m;
-  Vec3 core = d * sheet_core;
+  Vec3 core = d * sheet_core + cluster.core;
   std::string from = fmt::format("{:g} x {:g} x {:g} inflated diameters of {:.3g} m", sheet_core.x,
                                  sheet_core.y, sheet_core.z, d);
+  if (cluster.core.z > 0) from += "; wider and longer for the cluster";
   const auto wide = [](double side, double of_core) { return side >= least_box_over_core * of_core; };
   const bool all_wide = wide(box.x, core.x) && wide(box.y, core.y) && wide(box.z, core.z);
   if (sheet && flow.tunnel.kind == TunnelKind::closed) {  // its sides are where they are
@@ -188,7 +237,7 @@ void resolve_core(Follow& follow, double d, const Room& room, FlowKeys& keys, Fl
     core = {};
     from = sheet ? "a side of the domain is less than twice as long as the core of this canopy" : model;
   }
-  const double quarter = 0.25 * (keys.core.size_m ? keys.core.size_m->z : core.z);
+  const double quarter = 0.25 * ((keys.core.size_m ? keys.core.size_m->z : core.z) + cluster.core.z);
   if (core.z > 0 && room.core > 0) {
     core.z += room.core;
     from += fmt::format("; longer by {:.3g} m for the bodies", room.core);
@@ -221,7 +270,10 @@ void resolve_box(Follow& follow, Case& written, FlowSettings& flow) {
            usual_trailing_distance(parachute),
            "from the end of the riser to the skirt of the inflated canopy, about");
   const Room room = room_for_bodies(written, flow, d);
+  const ClusterRoom cluster = room_for_cluster(written, flow, d);
   BoxDefault box = default_box(flow, keys.tunnel, d);
+  box.size += cluster.box;
+  if (cluster.core.z > 0) box.from += fmt::format("; larger for {} canopies", canopy_count(written));
   if (room.domain > 0) {
     box.size.z += room.domain;
     box.from += fmt::format("; longer by {:.3g} m for the bodies", room.domain);
@@ -229,20 +281,28 @@ void resolve_box(Follow& follow, Case& written, FlowSettings& flow) {
   flow.box_m = follow("flow.box_m", keys.box_m, box.size, box.from);
   std::array<int, 3> cells = sheet && jet ? jet_cells : (sheet ? sheet_defaults : paper_defaults).cells;
   cells[2] += room.cells;
+  for (std::size_t i = 0; i < cells.size(); ++i) cells[i] += cluster.cells[i];
   flow.cells = follow("flow.cells", keys.cells, cells,
-                      sheet && jet      ? "default of the sheet model in the wide domain of a jet"
-                      : room.cells == 0 ? model
-                                        : fmt::format("{}, and {} for the bodies", model, room.cells));
-  const double half = (flow.box_m.z + room.domain) / 2, upstream = d * sheet_skirt + room.domain;
+                      sheet && jet           ? "default of the sheet model in the wide domain of a jet"
+                      : cluster.cells[2] > 0 ? model + ", and more for the cluster"
+                      : room.cells == 0      ? model
+                                             : fmt::format("{}, and {} for the bodies", model, room.cells));
+  const double half = (flow.box_m.z + room.domain) / 2,
+               upstream = d * sheet_skirt + room.domain + cluster.upstream;
   flow.canopy_position_m =
       jet ? follow("flow.canopy_position_m", keys.canopy_position_m, flow.tunnel.nozzle_distance_m,
                    "flow.tunnel.nozzle_distance_m; the domain begins at the nozzle")
       : sheet && upstream < half
           ? follow("flow.canopy_position_m", keys.canopy_position_m, upstream,
-                   room.domain > 0 ? "four widths of the widest body upstream of the foremost body"
-                                   : fmt::format("{:g} inflated diameters of {:.3g} m", sheet_skirt, d))
+                   room.domain > 0
+                       ? std::string("four widths of the widest body upstream of the foremost body")
+                   : cluster.core.z > 0
+                       ? fmt::format("{:g} inflated diameters of {:.3g} m times the root of {} canopies, and "
+                                     "half the depth of the inclined skirts",
+                                     sheet_skirt, d, canopy_count(written))
+                       : fmt::format("{:g} inflated diameters of {:.3g} m", sheet_skirt, d))
           : follow("flow.canopy_position_m", keys.canopy_position_m, half, "half the length of the domain");
-  resolve_core(follow, d, room, keys, flow);
+  resolve_core(follow, d, room, cluster, keys, flow);
 }
 
 /// Abilities of the engine; an unknown engine, which check_engine() reports, has all of them.

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "ripstop/case/assemble.h"
+#include "ripstop/case/cluster.h"
 #include "ripstop/case/cost.h"
 #include "ripstop/case/opening.h"
 #include "ripstop/parachute/own_mesh.h"
@@ -57,7 +58,7 @@ CaseSummary summarize(const Settings& resolved) {
   const double diameter = start_diameter(resolved.parachute());
   const TunnelSettings& tunnel = resolved.flow().tunnel;
   const bool jet = tunnel.kind == TunnelKind::open_jet;
-  summary.blockage = std::numbers::pi / 4 * diameter * diameter /
+  summary.blockage = canopy_count(resolved.written()) * std::numbers::pi / 4 * diameter * diameter /
                      (jet ? nozzle_area(tunnel.nozzle) : grid.size.x * grid.size.y);
   summary.of_jet = jet;
   summary.air = {resolved.flow().speed_m_s, resolved.flow().density_kg_m3};

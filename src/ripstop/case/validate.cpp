@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ripstop/case/cluster.h"
 #include "ripstop/case/quantity_keys.h"
 #include "ripstop/case/resolve.h"
 #include "ripstop/core/toml/read.h"
@@ -444,6 +445,7 @@ void check_settings(Case given, Findings& findings) {
     if (findings.sound({"flow.cells"})) check_cells(given, flow, findings);
   }
   check_bodies(given, flow.porosity_model, findings);
+  check_cluster(given, flow, findings);
   check_average(flow, findings);
   check_opening_air(given, flow, findings);
   check_watch(given, flow, findings);

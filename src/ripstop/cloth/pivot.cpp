@@ -2,6 +2,8 @@
 
 #include <Eigen/Dense>
 
+#include "ripstop/cloth/restraint.h"
+
 namespace ripstop::inline cloth {
 namespace {
 
@@ -59,6 +61,14 @@ void cancel_moment(const Cloth& cloth, const ClothState& state, Vec3 moment, Vec
   force.resize(cloth.mesh.node_count());
   for (int node = 0; node < cloth.mesh.node_count(); ++node)
     if (free(node)) force[node] -= cross(t, arm(node));
+}
+
+std::vector<Vec3> pivot_restraint(const Cloth& cloth, const ClothState& state, const Loads& loads) {
+  const std::optional<Vec3> pivot = pivot_of(cloth, state);
+  if (!pivot) return {};
+  std::vector<Vec3> force;
+  cancel_moment(cloth, state, applied_load(cloth, state, loads, *pivot).moment, *pivot, force);
+  return force;
 }
 
 }  // namespace ripstop::inline cloth

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ripstop/cloth/restraint.h"
+
 namespace ripstop::inline fsi {
 namespace {
 
@@ -60,6 +62,34 @@ Equilibrium find_equilibrium(const Cloth& cloth, const std::vector<Vec3>& previo
   found.residual = relaxed.residual;
   found.regularisation = options.regularisation;
   found.regularisation_share = relaxed.regularisation_share;
+  return found;
+}
+
+Equilibrium find_equilibrium(const Cluster& cluster, const Cloth& one, const Cloth& all,
+                             const std::vector<Vec3>& previous, const Loads& loads,
+                             const EquilibriumOptions& how, ThreadTeam& team,
+                             const std::function<void(const RelaxProgress&)>& report) {
+  Equilibrium found;
+  found.converged = true;
+  std::vector<Vec3> shape = previous;
+  for (int k = 0; k < cluster.canopies(); ++k) {
+    const Cluster::Frame axes = cluster.frame(k);
+    Loads own{cluster.part(k, loads.cell_pressure), cluster.part(k, loads.node_force)};
+    for (Vec3& force : own.node_force) force = axes.in(force);
+    const Equilibrium canopy =
+        find_equilibrium(one, cluster.own(k, previous), own, how, team, [&](const RelaxProgress& progress) {
+          if (report) report({found.steps + progress.steps, progress.residual, progress.kinetic_energy});
+        });
+    for (const Vec3& force : pivot_restraint(one, canopy.cloth, own))
+      found.restraint.push_back(axes.out(force));
+    cluster.put(k, cluster.upright(positions(canopy.cloth, one)), shape);
+    found.converged = found.converged && canopy.converged;
+    found.steps += canopy.steps;
+    found.residual = std::max(found.residual, canopy.residual);
+    found.regularisation = std::max(found.regularisation, canopy.regularisation);
+    found.regularisation_share = std::max(found.regularisation_share, canopy.regularisation_share);
+  }
+  found.cloth = cloth_at(all, shape);
   return found;
 }
 

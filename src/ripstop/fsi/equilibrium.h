@@ -8,6 +8,7 @@
 
 #include "ripstop/cloth/cloth.h"
 #include "ripstop/mesh/mesh.h"
+#include "ripstop/parachute/cluster.h"
 
 namespace ripstop::inline fsi {
 
@@ -29,6 +30,8 @@ struct Equilibrium {
   double regularisation =
       0;  // RelaxOptions::regularisation: restoring force towards the previous shape, an area and displacement [Pa/m]
   double regularisation_share = 0;  // its norm over that of the applied load
+  /// Of a cluster: node forces that keep each canopy at its angle, see pivot_restraint() [N]. Else empty.
+  std::vector<Vec3> restraint = {};
 };
 
 /// Mean magnitude of the pressure over the root of the cloth's area [Pa/m].
@@ -43,6 +46,14 @@ ClothState cloth_at(const Cloth& cloth, const std::vector<Vec3>& positions);
 /// and over, where in flight the flow would follow it. After 40,000 steps without rest every node is therefore pulled
 /// back to `previous` in proportion to its area and displacement. As the steady loop converges, this force vanishes.
 Equilibrium find_equilibrium(const Cloth& cloth, const std::vector<Vec3>& previous, const Loads& loads,
+                             const EquilibriumOptions& options, ThreadTeam& team,
+                             const std::function<void(const RelaxProgress&)>& report = {});
+
+/// The same of the canopies of a cluster, one after the other, each in its own frame. `one` is the cloth of one
+/// canopy, `all` that of the cluster. A canopy turns freely about the confluence: each is turned back to the angle of
+/// the cluster, which changes no follower load, and the restraint cancels its moment there.
+Equilibrium find_equilibrium(const Cluster& cluster, const Cloth& one, const Cloth& all,
+                             const std::vector<Vec3>& previous, const Loads& loads,
                              const EquilibriumOptions& options, ThreadTeam& team,
                              const std::function<void(const RelaxProgress&)>& report = {});
 

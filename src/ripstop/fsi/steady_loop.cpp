@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numbers>
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/quantity_error.h"
@@ -30,6 +31,33 @@ void require_inside(const FlowGrid& grid, const Mesh& mesh, const std::vector<Ce
                         p.x, p.y, p.z, grid.origin.x, grid.origin.y, grid.origin.z, far.x, far.y, far.z));
       }
     }
+  }
+}
+
+/// The flow of a cluster needs air between the canopies.
+void require_apart(const Cluster& cluster, const std::vector<Vec3>& shape) {
+  const double gap = cluster.gap(shape);
+  if (gap > 0) return;
+  throw QuantityError(
+      ExitCode::usage,
+      fmt::format(
+          "the canopies of the cluster touch: at the spread angle of {:.4g} deg their cloth crosses the "
+          "plane midway between two of them by {:.3g} m; increase that angle or the length of the riser",
+          cluster.layout().spread * 180 / std::numbers::pi, -0.5 * gap),
+      {"spread angle", "length of the riser"});
+}
+
+/// Force and moment about the confluence of the load on each canopy.
+void enter_canopies(SteadyState& state, const Cluster& cluster, const FlowField& field,
+                    std::size_t triangles) {
+  state.canopy_forces.assign(cluster.canopies(), {});
+  state.canopy_moments.assign(cluster.canopies(), {});
+  const std::size_t of_one = triangles / cluster.canopies();
+  for (const SheetLoad& load : field.sheet_loads) {
+    if (load.body != 0) continue;
+    const std::size_t k = load.triangle / of_one;
+    state.canopy_forces[k] += load.force;
+    state.canopy_moments[k] += cross(load.point - cluster.confluence(), load.force);
   }
 }
 
@@ -60,6 +88,8 @@ SteadySolver::SteadySolver(SteadyProblem problem, FlowEngine& engine)
     area_.insert(area_.end(), patch.cell_area.begin(),
                  patch.cell_area.begin() + (patch.rows - 1) * patch.columns);
   }
+  if (problem_.cluster)
+    one_cloth_ = make_cloth(problem_.cluster->one(), {.linear = problem_.settings.linear});
   require_inside(problem_.flow.grid, problem_.mesh, cells_);
 }
 
@@ -83,11 +113,15 @@ FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) 
   now.iteration = static_cast<int>(state.iterations.size()) + 1;
 
   // Equilibrium of the cloth under the present load.
-  const Loads loads = loads_of(state, cells_);
+  Loads loads = loads_of(state, cells_);
   const Equilibrium cloth = solve_cloth(state, loads, now, report);
   const std::vector<Vec3> shape = positions(cloth.cloth, *cloth_);
   enter_shape_change(now, state.shape, shape);
+  for (std::size_t node = 0; node < cloth.restraint.size(); ++node)
+    loads.node_force[node] += cloth.restraint[node];
   enter_cloth(now, state, cloth.cloth, loads, shape, problem_.mesh, *cloth_, cells_);
+  for (const Vec3& force : cloth.restraint) now.line_tension -= force.z;
+  if (problem_.cluster) require_apart(*problem_.cluster, shape);
 
   // Move the surface, advance the flow.
   const CanopySurface canopy(cells_, shape, problem_.flow.grid);
@@ -100,6 +134,7 @@ FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) 
     state.body_forces.push_back(field.bodies[n].force);
     state.body_moments.push_back(field.bodies[n].moment);
   }
+  if (problem_.cluster) enter_canopies(state, *problem_.cluster, field, canopy.triangles.size());
   now.cut_cells = static_cast<int>(canopy.cut_cells.size());
   now.printed_tolerance = printed_tolerance(now.flow_residual);
 
@@ -127,10 +162,12 @@ Equilibrium SteadySolver::solve_cloth(const SteadyState& state, const Loads& loa
   options.unit = regularisation_unit(state.pressure, area_);
   if (!state.iterations.empty()) options.regularisation = state.iterations.back().regularisation;
   if (state.in_time) options.repeat_above = regularisation_tolerance / 4;
-  Equilibrium found =
-      find_equilibrium(*cloth_, state.shape, loads, options, team_, [&](const RelaxProgress& progress) {
-        if (report) report({.stage = SteadyStage::cloth, .iteration = now.iteration, .cloth = progress});
-      });
+  const auto shown = [&](const RelaxProgress& progress) {
+    if (report) report({.stage = SteadyStage::cloth, .iteration = now.iteration, .cloth = progress});
+  };
+  Equilibrium found = problem_.cluster ? find_equilibrium(*problem_.cluster, *one_cloth_, *cloth_,
+                                                          state.shape, loads, options, team_, shown)
+                                       : find_equilibrium(*cloth_, state.shape, loads, options, team_, shown);
   if (!found.converged) {
     throw QuantityError(
         ExitCode::not_converged,

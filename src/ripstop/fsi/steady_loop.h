@@ -17,16 +17,18 @@
 #include "ripstop/fsi/load_model.h"
 #include "ripstop/fsi/steady_state.h"
 #include "ripstop/parachute/canopy_mesh.h"
+#include "ripstop/parachute/cluster.h"
 
 namespace ripstop::inline fsi {
 
 struct SteadyProblem {
   CanopyMesh mesh;            // start shape in the frame of the flow
   FlowProblem flow;           // one body that has the resistance; the loop finds its surface
-  double reference_area = 0;  // S0 [m2]
+  double reference_area = 0;  // S0, of all canopies [m2]
   CouplingSettings settings;
   std::optional<Watch> averaging_window;  // once shape and drag have settled, the flow is averaged in time
   std::string full_box_because = {};      // why FlowProblem::quarter is not set; empty where it is
+  std::optional<Cluster> cluster = {};    // `mesh` is that of its canopies
   bool own_mesh = false;                  // `mesh` is that of the user, S0 its cloth as cut
 };
 
@@ -60,8 +62,10 @@ class SteadySolver {
   const Flow& flow() const { return *flow_; }
   const Cloth& cloth() const { return *cloth_; }
   const CanopyMesh& mesh() const { return problem_.mesh; }
+  /// Null for a single canopy.
+  const Cluster* cluster() const { return problem_.cluster ? &*problem_.cluster : nullptr; }
   bool has_own_mesh() const { return problem_.own_mesh; }
-  double reference_area() const { return problem_.reference_area; }  // S0 [m2]
+  double reference_area() const { return problem_.reference_area; }  // S0, of all canopies [m2]
   /// Of the flow: the canopy, whose surface is that of the start, and rigid bodies.
   const std::vector<FlowBody>& bodies() const { return problem_.flow.bodies; }
   /// Why the whole box is solved, as a clause; empty: a quarter of it is.
@@ -81,6 +85,7 @@ class SteadySolver {
   SteadyProblem problem_;
   std::unique_ptr<Flow> flow_;
   ClothPtr cloth_;
+  ClothPtr one_cloth_;  // of one canopy of a cluster; else null
   std::vector<Cell> cells_;
   std::vector<double> area_;  // of the cells as cut [m2]
   SteadyConvergence convergence_;

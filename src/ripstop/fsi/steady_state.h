@@ -53,6 +53,8 @@ struct SteadyState {
   bool in_time = false;                         // from the next iteration on, the flow is averaged in time
   WindowAverage window;                         // the last one
   std::vector<Vec3> body_forces, body_moments;  // on the bodies other than the canopy [N], [N m]
+  std::vector<Vec3> canopy_forces,
+      canopy_moments;  // of a cluster: on each canopy, about the confluence [N], [N m]
   bool converged = false;
   double speed = 0;  // stream speed of this state, where a run searches for it; 0: that of the case [m/s]
   int speeds = 0;    // tried so far
@@ -70,6 +72,8 @@ void each_member(T& s, Visit&& visit) {
   visit("applied", s.applied);
   visit("body_forces", s.body_forces);
   visit("body_moments", s.body_moments);
+  visit("canopy_forces", s.canopy_forces);
+  visit("canopy_moments", s.canopy_moments);
   visit("update", s.accelerator.update);
   visit("relaxation", s.accelerator.relaxation);
   visit("memory", s.accelerator.memory);

@@ -42,14 +42,20 @@ Margins case_margins(const Settings& resolved, const CanopyMesh& mesh,
         loads.lines.push_back(t.largest_tension);
     for (const int spring : mesh.rigging.tape_springs)
       loads.tape = std::max(loads.tape, spring_tensions[spring]);
-    const std::vector<int>& chain = mesh.rigging.riser_springs;
-    for (std::size_t i = 0; i < chain.size(); ++i)
-      loads.riser = std::max(
-          loads.riser, chain_tension(spring_tensions[chain[i]], riser.bending_fraction, i, chain.size()));
+    // A cluster has a riser of equal length for each canopy; the hardware below the confluence carries all of them.
+    const std::vector<int>& springs = mesh.rigging.riser_springs;
+    const std::size_t count = springs.size() / std::max<std::size_t>(1, mesh.fixed.size());
+    for (std::size_t first = 0; count > 0 && first < springs.size(); first += count) {
+      double load = 0;
+      for (std::size_t i = 0; i < count; ++i)
+        load = std::max(load, chain_tension(spring_tensions[static_cast<std::size_t>(springs[first + i])],
+                                            riser.bending_fraction, i, count));
+      loads.riser = std::max(loads.riser, load);
+      loads.hardware += load;
+    }
   }
   // Without a riser the lines pull at the hardware; the sum of their peaks is an upper bound of that load.
-  loads.hardware =
-      loads.riser > 0 ? loads.riser : std::accumulate(loads.lines.begin(), loads.lines.end(), 0.0);
+  if (!(loads.riser > 0)) loads.hardware = std::accumulate(loads.lines.begin(), loads.lines.end(), 0.0);
   for (std::size_t i = 0; i < reefing_tensions.size(); ++i)
     loads.others.push_back(
         {"reefing line " + std::to_string(i + 1), reefing_tensions[i], resolved.reefing_lines()[i]});

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ripstop/case/cluster.h"
 #include "ripstop/core/error.h"
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/descent.h"
@@ -24,6 +25,7 @@ std::string to_json(const Descent& descent) {
 }
 
 CarryingRun carrying_run(const FinishedSteady& run) {
+  require_one_canopy(run.resolved, "a descent, an export or an opening load");
   return {run.folder,           run.resolved,         run.result.title, "axial",
           run.result.drag_area, run.drag_uncertainty, run.result.speed, run.result.density,
           run.parachute_mass,   run.warnings};

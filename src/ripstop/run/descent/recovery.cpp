@@ -10,6 +10,7 @@
 #include <numeric>
 #include <utility>
 
+#include "ripstop/case/cluster.h"
 #include "ripstop/case/payload.h"
 #include "ripstop/core/claimed_folder.h"
 #include "ripstop/core/error.h"
@@ -282,6 +283,8 @@ std::string to_json(const RecoveryResult& result) {
 
 RecoveryResult run_recovery(const Settings& main, const std::optional<Settings>& drogue,
                             const RecoveryRequest& request) {
+  require_one_canopy(main, "a recovery");
+  if (drogue) require_one_canopy(*drogue, "a recovery");
   check_recovery(request, drogue.has_value());
   std::vector<RecoveryCanopy> canopies;
   if (drogue) canopies.push_back(canopy_of("drogue", *drogue, request.drogue_steady));

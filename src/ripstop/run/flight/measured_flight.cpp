@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ripstop/case/cluster.h"
 #include "ripstop/case/payload.h"
 #include "ripstop/core/claimed_folder.h"
 #include "ripstop/core/error.h"
@@ -143,6 +144,7 @@ std::string to_json(const MeasuredFlight& flight) {
 }
 
 MeasuredFlight compare_flight(const Settings& resolved, const MeasuredFlightRequest& request) {
+  require_one_canopy(resolved, "a comparison with a flight");
   MeasuredFlight f;
   f.title = resolved.title();
   find_mass(resolved, request, f);

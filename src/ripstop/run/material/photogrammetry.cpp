@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "ripstop/case/assemble.h"
+#include "ripstop/case/cluster.h"
 #include "ripstop/core/claimed_folder.h"
 #include "ripstop/core/file.h"
 #include "ripstop/output/plot.h"
@@ -61,6 +62,7 @@ PlotSeries seen_series(const Photogrammetry& result) {
 }  // namespace
 
 ComputedCanopy computed_canopy(const Settings& resolved, const std::vector<Vec3>& shape) {
+  require_one_canopy(resolved, "a comparison with photographs");
   const CanopyMesh mesh = parachute_mesh(resolved);
   return {resolved.title(), "", canopy_profile(mesh, shape), image_sizes(mesh, shape)};
 }

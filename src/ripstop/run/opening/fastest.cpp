@@ -8,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include "ripstop/case/cluster.h"
 #include "ripstop/core/claimed_folder.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
@@ -177,6 +178,7 @@ std::string to_json(const FastestResult& result) {
 }
 
 FastestResult run_fastest(const Settings& resolved, LoadRequest request, double margin) {
+  require_one_canopy(resolved, "an opening load");
   if (!(margin >= 0) || !std::isfinite(margin))
     throw Error(ExitCode::usage, fmt::format("a margin of safety of {:g}: must be 0 or above", margin));
   if (!weakest(load_margins(resolved, 1)))

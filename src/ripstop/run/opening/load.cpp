@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "ripstop/case/cluster.h"
 #include "ripstop/case/opening.h"
 #include "ripstop/case/payload.h"
 #include "ripstop/core/error.h"
@@ -383,6 +384,7 @@ LoadUncertainty load_uncertainty(const DragCoefficient& drag) {
 }
 
 LoadResult run_load(const Settings& resolved, const LoadRequest& request) {
+  require_one_canopy(resolved, "an opening load");
   check_request(request);
   LoadResult r;
   r.title = resolved.title();

@@ -99,7 +99,7 @@ ReportRun report_of(const fs::path& folder) {
   }
   run.plots = plots_of(run, folder);
   add_shape(run, folder);
-  if (!run.shape.frames.empty()) run.shape.part_names = parachute_mesh(resolved).parts;
+  if (!run.shape.frames.empty()) run.shape.part_names = steady_mesh(resolved).parts;
   add_flow(run, folder);
   return run;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "ripstop/case/assemble.h"
+#include "ripstop/case/cluster.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/output/csv.h"
@@ -68,6 +69,7 @@ ComparedModel model_of(const SweepPoint& point, const SteadyResult& result, cons
 }  // namespace
 
 SweepAxis linear_models(const Settings& resolved) {
+  require_one_canopy(resolved, "a comparison of material models");
   if (resolved.coupling().linear)
     throw Error(ExitCode::usage,
                 "the case is already linear (coupling.linear = true); remove the key to compare the models");

@@ -17,6 +17,7 @@
 #include "ripstop/run/engine.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/quality.h"
+#include "ripstop/run/steady/cluster_result.h"
 #include "ripstop/run/steady/coarse_start.h"
 #include "ripstop/run/steady/steady_parts.h"
 #include "ripstop/run/steady/warnings.h"
@@ -38,6 +39,7 @@ void take_quality(SteadyResult& r, const Settings& resolved, bool own_mesh) {
       {"momentum_deficit_gap", gap(r.ledger.momentum_deficit)}};
   if (r.unsteady) values.push_back({"mass_defect", r.unsteady->watched.mass_defect});
   Judgement judgement = judge(values);
+  if (r.cluster) judgement.add(cluster_warnings(*r.cluster));
   judgement.add(margin_warnings(r.margins));
   judgement.add(warnings_of(resolved, r.stress.strain, own_mesh));
   const bool needs_cells = resolved.coupling().load == CanopyLoad::of_flow;
@@ -92,7 +94,8 @@ SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state,
   r.drag_coefficient = r.drag_area / r.reference_area;
   if (!solver.has_own_mesh())
     r.known_drag_coefficient = experience(resolved.parachute()).drag_coefficient.if_known();
-  r.size = canopy_size(solver.mesh(), state.shape);
+  r.size =
+      solver.cluster() ? mean_size(*solver.cluster(), state.shape) : canopy_size(solver.mesh(), state.shape);
   const ClothState cloth = solver.cloth_state(state);
   const std::vector<double> tensions = spring_tensions(solver.cloth(), cloth);
   for (const LineTension& t : line_tensions(solver.mesh(), tensions))
@@ -109,6 +112,10 @@ SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state,
   r.domain = solved_domain(solver, state);
   if (state.in_time) r.unsteady = unsteady_result(state.window, resolved);
   r.measured = resolved.measured_row();
+  if (solver.cluster()) {
+    r.cluster = cluster_result(solver, state, tensions, r.drag_coefficient, resolved);
+    r.cluster->one_failed = margins_after_failure(solver, tensions, r.stress, resolved);
+  }
   if (!state.body_forces.empty()) r.bodies = body_results(solver.bodies(), state, resolved);
   take_quality(r, resolved, solver.has_own_mesh());
   return r;
@@ -182,9 +189,12 @@ SteadySolution run_steady(const Settings& resolved, SteadyObserver& observer,
 
 bool start_from(const Settings& other, const SteadyState& end, const SteadyRun& run, SteadyState& state) {
   const Settings& resolved = run.resolved;
-  const bool same_mesh =
-      json::parse(case_json(resolved)).at("parachute") == json::parse(case_json(other)).at("parachute") &&
-      end.shape.size() == state.shape.size() && end.pressure.size() == state.pressure.size();
+  const json here = json::parse(case_json(resolved)), before = json::parse(case_json(other));
+  const auto same = [&](const char* table) {
+    return here.value(table, json()) == before.value(table, json());
+  };
+  const bool same_mesh = same("parachute") && same("cluster") && end.shape.size() == state.shape.size() &&
+                         end.pressure.size() == state.pressure.size();
   if (!same_mesh) return false;
   state.shape = end.shape;
   state.pressure = end.pressure;

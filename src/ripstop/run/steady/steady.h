@@ -97,6 +97,46 @@ void each_member(T& b, Visit&& visit) {
   visit("reference_area_m2", b.reference_area);
   visit("drag_coefficient", b.drag_coefficient);
 }
+/// Loads on one canopy of a cluster.
+struct ClusterCanopy {
+  double azimuth_deg = 0;         // about the axis of the cluster, from x
+  double drag = 0;                // along the stream [N]
+  double force = 0;               // its magnitude, the load of the riser [N]
+  double spreading_moment = 0;    // about the confluence, positive where it increases the spread angle [N m]
+  double max_line_tension = 0;    // [N]
+  double projected_diameter = 0;  // along its own axis [m]
+};
+template <Of<ClusterCanopy> T, class Visit>
+void each_member(T& c, Visit&& visit) {
+  visit("azimuth_deg", c.azimuth_deg);
+  visit("drag_n", c.drag);
+  visit("riser_load_n", c.force);
+  visit("spreading_moment_n_m", c.spreading_moment);
+  visit("max_line_tension_n", c.max_line_tension);
+  visit("projected_diameter_m", c.projected_diameter);
+}
+/// Of a case with a cluster.
+struct ClusterResult {
+  double spread_angle_deg = 0;
+  /// Mean over the canopies: the angle between the force at the centre of the skirt and the axis of the canopy,
+  /// positive where the force is inclined outward and spreads the cluster; zero in equilibrium [deg].
+  double force_angle_deg = 0;
+  double gap = 0;                        // smallest distance between two canopies, at least [m]
+  double difference = 0;                 // of the largest and smallest riser load, relative to the mean
+  std::optional<double> cluster_factor;  // C_D over that of one canopy, where the case gives that
+  std::vector<ClusterCanopy> canopies;
+  Margins one_failed;  // of the canopies that remain when one fails and they carry the same load
+};
+template <Of<ClusterResult> T, class Visit>
+void each_member(T& c, Visit&& visit) {
+  visit("spread_angle_deg", c.spread_angle_deg);
+  visit("force_angle_deg", c.force_angle_deg);
+  visit("gap_m", c.gap);
+  visit("riser_load_difference", c.difference);
+  visit("cluster_factor", c.cluster_factor);
+  visit("canopies", c.canopies);
+  visit("margins_one_failed", c.one_failed);
+}
 /// Of the drag to the weight, relative.
 inline constexpr double payload_tolerance = 1e-3;
 
@@ -121,6 +161,7 @@ struct SteadyResult {
   std::optional<UnsteadyResult> unsteady;
   std::optional<HeldPayload> payload;                // of a case with one
   std::optional<std::vector<BodyResult>> bodies;     // of a case with rigid bodies
+  std::optional<ClusterResult> cluster;              // of a case with a cluster
   std::optional<Margins> margins;                    // absent in results of earlier versions
   std::optional<Measured> measured;                  // the case's row for this speed
   std::optional<std::vector<std::string>> warnings;  // absent likewise, as is `usable`
@@ -161,6 +202,7 @@ void each_member(T& r, Visit&& visit) {
   visit("unsteady", r.unsteady);
   visit("payload", r.payload);
   visit("bodies", r.bodies);
+  visit("cluster", r.cluster);
   visit("margins", r.margins);
   visit("measured", r.measured);
   visit("warnings", r.warnings);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "ripstop/case/cluster.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/hash.h"
@@ -186,8 +187,9 @@ void SteadyFolder::write_pressure(const SteadyRun& run, const SteadyState& state
   plot.x.label = "along the cloth from the vent [m]";
   plot.y.label = "pressure coefficient";
   for (const char* name : {"inside", "outside", "cloth load"}) plot.series.emplace_back().name = name;
-  const std::vector<PressureRing> rings =
-      pressure_profile(run.solver.cells(), state.shape, state.sides, state.applied);
+  const Cluster* cluster = run.solver.cluster();
+  const std::vector<PressureRing> rings = pressure_profile(
+      run.solver.cells(), cluster ? cluster->overlaid(state.shape) : state.shape, state.sides, state.applied);
   for (const PressureRing& ring : rings) {
     const double values[] = {ring.inside / dynamic_pressure, ring.outside / dynamic_pressure,
                              ring.load / dynamic_pressure};
@@ -268,6 +270,7 @@ RunOfFolder run_of_folder(const fs::path& folder) {
 
 void require_for_opening(const Settings& resolved, const SteadyResult& result, const std::string& where,
                          const Settings& opening) {
+  require_one_canopy(resolved, "an opening");
   if (!result.converged)
     throw Error(
         ExitCode::bad_data,

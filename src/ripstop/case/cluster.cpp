@@ -1,0 +1,114 @@
+#include "ripstop/case/cluster.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "ripstop/case/bodies.h"
+#include "ripstop/case/case.h"
+#include "ripstop/case/settings.h"
+#include "ripstop/core/error.h"
+#include "ripstop/core/toml/fields.h"
+#include "ripstop/core/toml/problem.h"
+
+namespace ripstop::inline cases {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double widest_spread = 60;  // [deg]
+// Depth of the inflated canopy to its widest part, in inflated diameters (about).
+constexpr double widest_part = 0.25;
+// Inflated over the inflated diameter of the domain, which is a generous one: canopies closer than this do touch.
+constexpr double narrow = 0.9;
+
+}  // namespace
+
+void describe(Fields& fields, ClusterKeys& keys) {
+  fields
+      .integer("canopies", keys.canopies, from(fewest_in_cluster).up_to(most_in_cluster),
+               "Number of canopies, all of them as in [parachute], each on its own riser "
+               "(parachute.riser.length_m) to the common confluence.")
+      .required();
+  fields
+      .number("spread_angle_deg", keys.spread_angle_deg, above(0).up_to(widest_spread),
+              "Angle between the axis of each canopy and the axis of the cluster. The result contains the "
+              "moment that would change it.")
+      .required();
+  fields
+      .number("single_drag_coefficient", keys.single_drag_coefficient, above(0).up_to(5),
+              "Drag coefficient of one canopy alone, from a run of the same case without this table. The "
+              "cluster factor is relative to it.")
+      .absent("no cluster factor in the result");
+}
+
+ClusterLayout layout_of(const ClusterKeys& keys) {
+  return {keys.canopies, degree * keys.spread_angle_deg};
+}
+
+int canopy_count(const Case& given) {
+  return given.cluster ? given.cluster->canopies : 1;
+}
+
+double cluster_arm(const Case& given) {
+  return usual_trailing_distance(given.parachute) + widest_part * inflated_diameter(given.parachute);
+}
+
+Vec3 room_for_cluster(const Case& given, double d) {
+  if (!given.cluster) return {};
+  const ClusterLayout layout = layout_of(*given.cluster);
+  return cluster_arm(given) * layout.width() + Vec3{0, 0, d * std::sin(layout.spread)};
+}
+
+void check_cluster(const Case& given, const FlowSettings& flow, Findings& findings) {
+  if (!given.cluster || !findings.sound({"cluster"})) return;
+  if (flow.porosity_model != PorosityModel::sheet)
+    findings.add("flow.porosity_model", "\"paper\"", "\"sheet\"", "a cluster needs the sheet model");
+  if (flow.tunnel.kind != TunnelKind::free_air)
+    findings.add("flow.tunnel.kind", "", "\"free-air\"", "a cluster is computed in free air only");
+  if (!given.bodies.empty())
+    findings.add("body." + given.bodies.begin()->first, "", "",
+                 "rigid bodies and a cluster cannot be in one case yet; remove one of the tables");
+  if (given.payload.mass_kg)
+    findings.add("payload.mass_kg", *given.payload.mass_kg, "",
+                 "the speed of a cluster is not searched; remove the payload and give flow.speed_m_s");
+  const double across = start_diameter(given.parachute);
+  const Vec3 room = cluster_arm(given) * layout_of(*given.cluster).width();
+  const double needed[] = {room.x + across, room.y + across}, box[] = {flow.box_m.x, flow.box_m.y},
+               core[] = {flow.core.size_m.x, flow.core.size_m.y};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::string allowed = fmt::format("at least {:.6g}", 1.001 * needed[i]);
+    const auto refuse = [&](const char* key, double value, const char* part) {
+      findings.add(fmt::format("{}[{}]", key, i), value, allowed,
+                   fmt::format("the cluster does not fit into the {}; it needs {} m", part, allowed));
+    };
+    if (box[i] <= needed[i] && findings.sound({"flow.box_m"})) refuse("flow.box_m", box[i], "flow domain");
+    if (core[i] > 0 && core[i] < (1 - 1e-12) * needed[i] && findings.sound({"flow.core.size_m"}))
+      refuse("flow.core.size_m", core[i], "fine core");
+  }
+  const int n = given.cluster->canopies;
+  const double arm = cluster_arm(given), radius = 0.5 * inflated_diameter(given.parachute);
+  const double share = narrow * radius / (arm * std::sin(std::numbers::pi / n));
+  if (std::sin(layout_of(*given.cluster).spread) >= share) return;
+  const bool possible = share < std::sin(degree * widest_spread);
+  const double least = std::ceil(10 * std::asin(std::min(1.0, share)) / degree) / 10;
+  const double longer = (share / std::sin(layout_of(*given.cluster).spread) - 1) * arm;
+  const std::string wider = possible ? fmt::format("increase the angle to at least {:.1f}, or ", least) : "";
+  findings.add("cluster.spread_angle_deg", given.cluster->spread_angle_deg,
+               possible ? fmt::format("at least {:.1f}", least) : "",
+               fmt::format("{} canopies of about {:.3g} m inflated diameter, {:.3g} m from the confluence, "
+                           "touch; {}lengthen the riser (parachute.riser.length_m = {:g}) by {:.3g} m",
+                           n, 2 * radius, arm, wider, given.parachute.riser.length_m, longer));
+}
+
+void require_one_canopy(const Settings& resolved, const char* what) {
+  if (!resolved.written().cluster) return;
+  throw Error(
+      ExitCode::usage,
+      fmt::format("cluster.canopies = {}: {} computes one canopy; only a steady run and a sweep compute "
+                  "a cluster (remove the table, or --unset cluster)",
+                  resolved.written().cluster->canopies, what));
+}
+
+}  // namespace ripstop::inline cases

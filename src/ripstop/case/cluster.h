@@ -1,0 +1,42 @@
+// Several equal canopies on risers to one confluence: [cluster].
+#pragma once
+
+#include <optional>
+
+#include "ripstop/core/vec3.h"
+#include "ripstop/parachute/cluster.h"
+
+namespace ripstop {
+class Fields;
+class Findings;
+}  // namespace ripstop
+
+namespace ripstop::inline cases {
+
+class Settings;
+struct Case;
+struct FlowSettings;
+
+/// [cluster] as given.
+struct ClusterKeys {
+  int canopies = 0;
+  double spread_angle_deg = 0;                    // between the axes of a canopy and of the cluster
+  std::optional<double> single_drag_coefficient;  // of one canopy alone, for the cluster factor
+};
+void describe(Fields& fields, ClusterKeys& keys);
+
+ClusterLayout layout_of(const ClusterKeys& keys);
+/// Number of canopies of the case: 1 without a cluster.
+int canopy_count(const Case& given);
+
+/// From the confluence to the middle of a canopy, about [m].
+double cluster_arm(const Case& given);
+/// By which the core of fine cells is larger than for one canopy of the inflated diameter `d`; 0 without a cluster [m].
+Vec3 room_for_cluster(const Case& given, double d);
+
+/// Settings that a cluster cannot have, and canopies that touch.
+void check_cluster(const Case& given, const FlowSettings& flow, Findings& findings);
+/// Throws Error(usage) for a case with a cluster: `what` computes one canopy.
+void require_one_canopy(const Settings& resolved, const char* what);
+
+}  // namespace ripstop::inline cases

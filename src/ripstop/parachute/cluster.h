@@ -1,0 +1,76 @@
+// Two to four equal canopies, each on its riser, whose risers end at one confluence.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "ripstop/core/vec3.h"
+#include "ripstop/parachute/canopy_mesh.h"
+
+namespace ripstop::inline parachute {
+
+inline constexpr int fewest_in_cluster = 2, most_in_cluster = 4;
+
+/// Where the canopies are: at equal angles about the axis of the cluster, each axis inclined to it by `spread` [rad].
+struct ClusterLayout {
+  int canopies = fewest_in_cluster;
+  double spread = 0;
+
+  /// Of canopy `k` about z, from x [rad]. Two lie along x, three have one on y, four lie on the diagonals: the planes
+  /// x = 0 and y = 0 are planes of symmetry of two and four.
+  double azimuth(int k) const;
+  /// Largest distances along x and y between the axes of two canopies, at a distance of 1 m from the confluence.
+  Vec3 width() const;
+};
+
+/// The meshes of a cluster. Nodes, springs, patches and cells are those of the first canopy, then those of the second
+/// one. In its own frame a canopy is on the axis x = y = 0, with the end of its riser where that of `one` is.
+class Cluster {
+ public:
+  /// `one` is on the axis and has one fixed node, which becomes the confluence. The centre of the skirts has the height
+  /// of that of `one`. Throws Error(usage) for a mesh without cloth, skirt or such a node.
+  Cluster(CanopyMesh one, ClusterLayout layout);
+
+  const CanopyMesh& one() const { return one_; }
+  const ClusterLayout& layout() const { return layout_; }
+  int canopies() const { return layout_.canopies; }
+  Vec3 confluence() const { return confluence_; }
+  /// Of all canopies.
+  CanopyMesh mesh() const;
+
+  /// Unit vectors of the frame of canopy `k`: x points away from the axis of the cluster, z along that of the canopy.
+  struct Frame {
+    Vec3 x, y, z;
+    Vec3 out(Vec3 v) const { return v.x * x + v.y * y + v.z * z; }
+    Vec3 in(Vec3 v) const { return {dot(v, x), dot(v, y), dot(v, z)}; }
+  };
+  Frame frame(int k) const;
+
+  /// Positions of the nodes of canopy `k` in its own frame, from those of all canopies.
+  std::vector<Vec3> own(int k, const std::vector<Vec3>& all) const;
+  /// The converse.
+  void put(int k, const std::vector<Vec3>& own, std::vector<Vec3>& all) const;
+  /// Positions of all nodes, each in the frame of its own canopy.
+  std::vector<Vec3> overlaid(const std::vector<Vec3>& all) const;
+  /// Positions in the own frame, turned about the end of the riser until the centroid of the skirt is on the axis.
+  std::vector<Vec3> upright(std::vector<Vec3> own) const;
+
+  /// Smallest distance between the cloth of two canopies, at least: twice that of a node of the cloth from the planes
+  /// midway between neighbours. Negative where cloth has crossed such a plane [m].
+  double gap(const std::vector<Vec3>& all) const;
+
+  /// The part of an array over all canopies that belongs to canopy `k`.
+  template <class T>
+  std::vector<T> part(int k, const std::vector<T>& all) const {
+    const auto count = static_cast<std::ptrdiff_t>(all.size()) / layout_.canopies;
+    return {all.begin() + k * count, all.begin() + (k + 1) * count};
+  }
+
+ private:
+  CanopyMesh one_;
+  ClusterLayout layout_;
+  Vec3 end_of_riser_;  // of `one`
+  Vec3 confluence_;
+};
+
+}  // namespace ripstop::inline parachute

@@ -1,0 +1,104 @@
+#include "ripstop/run/steady/cluster_result.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "ripstop/canopy/shape.h"
+#include "ripstop/canopy/stress.h"
+#include "ripstop/core/words.h"
+
+namespace ripstop::inline run {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double largest_force_angle = 2;    // [deg]
+constexpr double largest_difference = 0.05;  // between riser loads
+
+Vec3 skirt_centre(const CanopyMesh& mesh, const std::vector<Vec3>& x) {
+  Vec3 sum;
+  for (const int node : mesh.rigging.skirt_nodes) sum += x[static_cast<std::size_t>(node)];
+  return sum / double(mesh.rigging.skirt_nodes.size());
+}
+
+}  // namespace
+
+ClusterResult cluster_result(const SteadySolver& solver, const SteadyState& state,
+                             const std::vector<double>& tensions, double drag_coefficient,
+                             const Settings& resolved) {
+  const Cluster& cluster = *solver.cluster();
+  const CanopyMesh& one = cluster.one();
+  ClusterResult result;
+  result.spread_angle_deg = cluster.layout().spread / degree;
+  result.gap = cluster.gap(state.shape);
+  double least = std::numeric_limits<double>::infinity(), most = 0, sum = 0;
+  for (int k = 0; k < cluster.canopies(); ++k) {
+    const std::vector<Vec3> shape = cluster.own(k, state.shape);
+    const Vec3 force = state.canopy_forces.at(static_cast<std::size_t>(k));
+    const Vec3 moment = cluster.frame(k).in(state.canopy_moments.at(static_cast<std::size_t>(k)));
+    ClusterCanopy& canopy = result.canopies.emplace_back();
+    canopy.azimuth_deg = cluster.layout().azimuth(k) / degree;
+    canopy.drag = force.z;
+    canopy.force = norm(force);
+    canopy.spreading_moment = moment.y;  // about y of the canopy: from its axis z outward to x
+    for (const LineTension& t : line_tensions(one, cluster.part(k, tensions)))
+      canopy.max_line_tension = std::max(canopy.max_line_tension, t.largest_tension);
+    canopy.projected_diameter = canopy_size(one, shape).projected_diameter;
+    const double arm = norm(skirt_centre(one, shape) - shape[static_cast<std::size_t>(one.fixed.front())]);
+    result.force_angle_deg += canopy.spreading_moment / (canopy.force * arm) / degree / cluster.canopies();
+    least = std::min(least, canopy.force), most = std::max(most, canopy.force), sum += canopy.force;
+  }
+  result.difference = (most - least) / (sum / cluster.canopies());
+  if (const auto& single = resolved.written().cluster->single_drag_coefficient)
+    result.cluster_factor = drag_coefficient / *single;
+  return result;
+}
+
+Margins margins_after_failure(const SteadySolver& solver, std::vector<double> tensions, StressPeak stress,
+                              const Settings& resolved) {
+  const double canopies = solver.cluster()->canopies(), more = canopies / (canopies - 1);
+  for (double& tension : tensions) tension *= more;
+  stress.warp *= more, stress.weft *= more;
+  Margins margins = case_margins(resolved, solver.mesh(), tensions, stress);
+  std::erase_if(margins.members, [&](const Margin& m) { return resolved.hardware().contains(m.member); });
+  const Margin* least = weakest(margins);
+  margins.weakest = least ? least->member : "";
+  return margins;
+}
+
+CanopySize mean_size(const Cluster& cluster, const std::vector<Vec3>& shape) {
+  CanopySize mean;
+  const double share = 1.0 / cluster.canopies();
+  for (int k = 0; k < cluster.canopies(); ++k) {
+    const CanopySize size = canopy_size(cluster.one(), cluster.own(k, shape));
+    mean.projected_diameter += share * size.projected_diameter;
+    mean.projected_area += share * size.projected_area;
+    mean.skirt_diameter += share * size.skirt_diameter;
+    mean.length += share * size.length;
+  }
+  return mean;
+}
+
+std::vector<std::string> cluster_warnings(const ClusterResult& cluster) {
+  std::vector<std::string> all = {
+      "cluster: the loads of a cluster are experimental (docs/guide/cluster-of-canopies.md)"};
+  if (std::abs(cluster.force_angle_deg) > largest_force_angle)
+    all.push_back(fmt::format(
+        "cluster.spread_angle_deg = {:.4g}: no equilibrium; the forces of the canopies are inclined to "
+        "their axes by {} deg and would {} the angle",
+        cluster.spread_angle_deg, rounded(std::abs(cluster.force_angle_deg), 2),
+        cluster.force_angle_deg > 0 ? "increase" : "reduce"));
+  if (cluster.difference > largest_difference)
+    all.push_back(
+        fmt::format("cluster: the riser loads of the canopies differ by {} %; their mean is not that "
+                    "of a symmetric flow (use finer cells, or flow.unsteady = true)",
+                    rounded(100 * cluster.difference, 2)));
+  for (const std::string& text : margin_warnings(cluster.one_failed))
+    all.push_back("when one canopy of the cluster fails, " + text);
+  return all;
+}
+
+}  // namespace ripstop::inline run

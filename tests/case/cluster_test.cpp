@@ -1,0 +1,103 @@
+// [cluster]: the domain makes room for the canopies, and a case that cannot have them is refused.
+#include "ripstop/case/cluster.h"
+
+#include <gtest/gtest.h>
+
+#include "../refusal.h"
+#include "../small_case.h"
+#include "ripstop/case/assemble.h"
+#include "ripstop/case/cost.h"
+#include "ripstop/case/flying.h"
+#include "ripstop/case/opening.h"
+#include "ripstop/core/toml/problem.h"
+
+namespace ripstop {
+namespace {
+
+Case cluster_case(int canopies, double spread_angle_deg) {
+  Case given = flat_circular_case(1, 500, 20);
+  given.parachute.riser.length_m = 1;
+  given.parachute.mesh.line_segment_m = 0.25;
+  given.cluster = ClusterKeys{canopies, spread_angle_deg, {}};
+  return given;
+}
+
+Settings without_cluster(Case given) {
+  given.cluster.reset();
+  return resolve(checked(given));
+}
+
+TEST(ClusterCase, TheDomainIsAsWideACanopyWithCellsNoLarger) {
+  for (const int canopies : {2, 3, 4}) {
+    const Settings many = resolve(checked(cluster_case(canopies, 20)));
+    const Settings one = without_cluster(cluster_case(canopies, 20));
+    const Vec3 box = many.flow().box_m, of_one = one.flow().box_m;
+    EXPECT_GE(box.x * box.y, canopies * of_one.x * of_one.y * (1 - 1e-9));
+    const Vec3 cell = flow_grid(many.flow()).spacing(), cell_of_one = flow_grid(one.flow()).spacing();
+    for (const double ratio : {cell.x / cell_of_one.x, cell.y / cell_of_one.y, cell.z / cell_of_one.z}) {
+      EXPECT_LE(ratio, 1.02);
+      EXPECT_GE(ratio, 0.9);
+    }
+    EXPECT_NEAR(cost_of(many).nodes, canopies * cost_of(one).nodes, 1e-9);
+  }
+}
+
+TEST(ClusterCase, AnInflatedCanopyIsWithinTheFineCells) {
+  const Settings resolved = resolve(checked(cluster_case(3, 30)));
+  const SteadyProblem problem = steady_problem(resolved);
+  const Vec3 core = resolved.flow().core.size_m;
+  const double start = resolved.flow().core.start_m;
+  for (const Cell& cell : cells_of(problem.mesh))
+    for (const int node : cell.corner) {
+      if (node < 0) continue;
+      // The start shape is flat and wider than the inflated one.
+      const Vec3 p = problem.mesh.start[node];
+      EXPECT_LT(std::abs(p.x), 0.5 * core.x + 0.1);
+      EXPECT_LT(std::abs(p.y), 0.5 * core.y + 0.1);
+      EXPECT_GT(p.z, start - 0.1);
+      EXPECT_LT(p.z, start + core.z);
+    }
+  EXPECT_NEAR(problem.reference_area, 3 * nominal_area(resolved.parachute()), 1e-12);
+}
+
+TEST(ClusterCase, ImpossibleOnesAreRefusedWithTheirKey) {
+  const auto key_of = [](auto edit) {
+    Case given = cluster_case(3, 20);
+    edit(given);
+    const std::vector<Problem> problems = validate(given);
+    return problems.size() == 1 ? problems.front().key : std::to_string(problems.size()) + " problems";
+  };
+  EXPECT_EQ(key_of([](Case& c) { c.cluster->canopies = 5; }), "cluster.canopies");
+  EXPECT_EQ(key_of([](Case& c) { c.cluster->canopies = 1; }), "cluster.canopies");
+  EXPECT_EQ(key_of([](Case& c) { c.cluster->spread_angle_deg = 5; }), "cluster.spread_angle_deg");
+  EXPECT_EQ(key_of([](Case& c) { c.flow.box_m = Vec3{2, 6, 6}; }), "flow.box_m[0]");
+  EXPECT_EQ(key_of([](Case& c) { c.payload.mass_kg = 5; }), "payload.mass_kg");
+  EXPECT_EQ(key_of([](Case& c) { c.bodies["box"].shape = BoxKeys{{0.1, 0.1, 0.1}}; }), "body.box");
+}
+
+TEST(ClusterCase, CanopiesThatTouchAreRefusedWithTheAngleAndTheRiserThatSeparateThem) {
+  Case given = cluster_case(3, 8);
+  const std::vector<Problem> problems = validate(given);
+  ASSERT_EQ(problems.size(), 1u);
+  const std::string allowed = problems.front().allowed;
+  ASSERT_TRUE(allowed.starts_with("at least ")) << allowed;
+  given.cluster->spread_angle_deg = std::stod(allowed.substr(9));
+  EXPECT_TRUE(validate(given).empty());
+  EXPECT_NE(problems.front().message.find("lengthen the riser ("), std::string::npos)
+      << problems.front().message;
+}
+
+TEST(ClusterCase, AFlightAndAnOpeningComputeOneCanopy) {
+  const Settings resolved = resolve(checked(cluster_case(3, 20)));
+  const std::string opening = refusal_of(
+      [&] {
+        opening_problem(resolved, LoadSource{"1 Pa", {}}, 1, {});
+      },
+      ExitCode::usage);
+  EXPECT_EQ(opening,
+            "cluster.canopies = 3: an opening computes one canopy; only a steady run and a sweep compute a "
+            "cluster (remove the table, or --unset cluster)");
+}
+
+}  // namespace
+}  // namespace ripstop

@@ -1,0 +1,121 @@
+// Clusters: the canopies of one mesh, and their frames.
+#include "ripstop/parachute/cluster.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "../refusal.h"
+#include "../small_case.h"
+#include "ripstop/canopy/mirror.h"
+#include "ripstop/case/assemble.h"
+
+namespace ripstop {
+namespace {
+
+constexpr double one_degree = std::numbers::pi / 180;
+
+CanopyMesh small_canopy() {
+  Case given = flat_circular_case(1, 500, 20);
+  given.parachute.riser.length_m = 1;
+  given.parachute.mesh.line_segment_m = 0.25;
+  return parachute_mesh(resolve(checked(given)));
+}
+
+TEST(Cluster, TheMeshHasTheNodesSpringsAndCellsOfEveryCanopy) {
+  const CanopyMesh one = small_canopy();
+  const Cluster cluster(one, {3, 20 * one_degree});
+  const CanopyMesh all = cluster.mesh();
+  EXPECT_EQ(all.node_count(), 3 * one.node_count());
+  EXPECT_EQ(all.springs.size(), 3 * one.springs.size());
+  EXPECT_EQ(all.cell_count(), 3 * one.cell_count());
+  EXPECT_EQ(all.rigging.lines.size(), 3 * one.rigging.lines.size());
+  ASSERT_EQ(all.fixed.size(), 3u);
+  for (const int node : all.fixed) EXPECT_LT(norm(all.start[node] - cluster.confluence()), 1e-12);
+  // The geometry is that of one canopy: lengths between the nodes of every spring.
+  for (std::size_t s = 0; s < all.springs.size(); ++s) {
+    const Spring &spring = all.springs[s], &of_one = one.springs[s % one.springs.size()];
+    EXPECT_NEAR(norm(all.start[spring.b] - all.start[spring.a]),
+                norm(one.start[of_one.b] - one.start[of_one.a]), 1e-12);
+  }
+  const auto sum = [](const std::vector<double>& mass) {
+    return std::accumulate(mass.begin(), mass.end(), 0.0);
+  };
+  EXPECT_NEAR(sum(all.mass), 3 * sum(one.mass), 1e-12);
+}
+
+TEST(Cluster, EveryAxisIsInclinedByTheSpreadAngleAtTheHeightOfOneCanopy) {
+  const CanopyMesh one = small_canopy();
+  const auto skirt = [](const CanopyMesh& mesh, int k, int canopies) {
+    const std::vector<int>& nodes = mesh.rigging.skirt_nodes;
+    const std::size_t count = nodes.size() / static_cast<std::size_t>(canopies);
+    Vec3 centre;
+    for (std::size_t n = 0; n < count; ++n)
+      centre += mesh.start[nodes[static_cast<std::size_t>(k) * count + n]] / double(count);
+    return centre;
+  };
+  for (int canopies = fewest_in_cluster; canopies <= most_in_cluster; ++canopies) {
+    const Cluster cluster(one, {canopies, 25 * one_degree});
+    const CanopyMesh all = cluster.mesh();
+    for (int k = 0; k < canopies; ++k) {
+      const Vec3 centre = skirt(all, k, canopies), axis = centre - cluster.confluence();
+      EXPECT_NEAR(std::acos(axis.z / norm(axis)), 25 * one_degree, 1e-9);
+      EXPECT_NEAR(
+          std::remainder(std::atan2(axis.y, axis.x) - cluster.layout().azimuth(k), 2 * std::numbers::pi), 0,
+          1e-9);
+      EXPECT_NEAR(centre.z, skirt(one, 0, 1).z, 1e-9);
+    }
+  }
+}
+
+TEST(Cluster, OfTwoAndFourHasPlanesOfSymmetryAndOfThreeHasNot) {
+  const CanopyMesh one = small_canopy();
+  EXPECT_TRUE(mirror_images(Cluster(one, {2, 20 * one_degree}).mesh()));
+  EXPECT_FALSE(mirror_images(Cluster(one, {3, 20 * one_degree}).mesh()));
+  EXPECT_TRUE(mirror_images(Cluster(one, {4, 20 * one_degree}).mesh()));
+}
+
+TEST(Cluster, ACanopyThatTurnedAboutTheConfluenceIsTurnedBack) {
+  const CanopyMesh one = small_canopy();
+  const Cluster cluster(one, {3, 20 * one_degree});
+  const std::vector<Vec3> start = cluster.own(1, cluster.mesh().start);
+  std::vector<Vec3> turned = start;
+  const Vec3 end = one.start[one.fixed.front()];
+  for (Vec3& p : turned) {
+    const Vec3 r = p - end;
+    const double c = std::cos(0.1), s = std::sin(0.1);
+    p = end + Vec3{c * r.x + s * r.z, r.y, c * r.z - s * r.x};
+  }
+  const std::vector<Vec3> back = cluster.upright(turned);
+  for (std::size_t n = 0; n < back.size(); ++n) EXPECT_LT(norm(back[n] - start[n]), 1e-9);
+}
+
+TEST(Cluster, TheGapIsTwiceTheDistanceFromThePlaneBetweenNeighbours) {
+  const Cluster cluster(small_canopy(), {2, 30 * one_degree});
+  const CanopyMesh all = cluster.mesh();
+  double nearest = 1e300;
+  for (const Cell& cell : cells_of(all))
+    for (const int node : cell.corner)
+      if (node >= 0) nearest = std::min(nearest, std::abs(all.start[node].x));
+  EXPECT_NEAR(cluster.gap(all.start), 2 * nearest, 1e-12);
+  EXPECT_LT(Cluster(small_canopy(), {2, 2 * one_degree})
+                .gap(Cluster(small_canopy(), {2, 2 * one_degree}).mesh().start),
+            0);
+}
+
+TEST(Cluster, RefusesACanopyThatIsHeldAtSeveralPoints) {
+  CanopyMesh one = small_canopy();
+  one.fixed.push_back(0);
+  EXPECT_NE(refusal_of(
+                [&] {
+                  Cluster(one, {3, 0.3});
+                },
+                ExitCode::usage)
+                .find("2 fixed nodes"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace ripstop
