@@ -61,16 +61,20 @@ TapeMaterial tape_for(const Case& given, double line_load) {
           share};
 }
 
-TapeMaterial tape_material(const Case& given) {
-  if (given.parachute.tape.material) return {*given.parachute.tape.material, "given", 0};
+UsualOpening usual_opening(const Case& given) {
   const Air stream = air(given);
   const bool sinks = given.payload.mass_kg && given.inflation.mass != InflationSettings::Mass::payload;
   const double speed = sinks ? usual_deployment_speed(stream.speed) : stream.speed;
   const double known = experience(given.parachute).opening_coefficient;
   const double drag = design_drag_coefficient(
       given.parachute, given.inflation.drag_coefficient.value_or(usual_drag_coefficient(given.parachute)));
-  const double load = (known > 0 ? known : unknown_opening) * drag * nominal_area(given.parachute) * 0.5 *
-                      stream.density * speed * speed;
+  return {speed, (known > 0 ? known : unknown_opening) * drag * nominal_area(given.parachute) * 0.5 *
+                     stream.density * speed * speed};
+}
+
+TapeMaterial tape_material(const Case& given) {
+  if (given.parachute.tape.material) return {*given.parachute.tape.material, "given", 0};
+  const auto [speed, load] = usual_opening(given);
   TapeMaterial tape =
       tape_for(given, experience(given.parachute).line_load_factor * load / given.parachute.lines.count);
   tape.from += fmt::format(" when it opens at {:.3g} m/s", speed);

@@ -14,9 +14,16 @@ struct TapeMaterial {
   double used = 0;   // of the strength of tape or hem by a line's load; 0: given, not computed
 };
 
-/// As the case gives it, else as tape_for() has it at the load of the opening: C_x C_D S0 q over the number of lines,
-/// C_x and C_D usual for the family, at the case's speed. A payload that the case sinks with opens its parachute at
-/// usual_deployment_speed(). Throws Error(usage) for a case without air or without its materials.
+/// Infinite-mass load of the opening, C_x C_D S0 q with the C_x and C_D of the family.
+struct UsualOpening {
+  double speed = 0, load = 0;  // [m/s], [N]
+};
+/// At the case's speed. A payload that the case sinks with opens its parachute at usual_deployment_speed(). Throws
+/// Error(usage) for a case without air.
+UsualOpening usual_opening(const Case& given);
+
+/// As the case gives it, else as tape_for() has it at the load of usual_opening(). Throws Error(usage) as that one, and
+/// for a case without its materials.
 TapeMaterial tape_material(const Case& given);
 
 /// Skirt, vent and seams are reinforced for the load of one line, with the [margins] of the case: none if a hem of the

@@ -1,6 +1,11 @@
 #include "ripstop/run/sizing/check.h"
 
+#include <fmt/format.h>
+
+#include "ripstop/case/tape.h"
+#include "ripstop/core/words.h"
 #include "ripstop/run/json.h"
+#include "ripstop/run/margins.h"
 #include "ripstop/run/steady/warnings.h"
 
 namespace ripstop::inline run {
@@ -24,6 +29,10 @@ Json to_json(const std::vector<Source>& sources, const Json& written) {
 CheckResult run_check(const Settings& resolved) {
   std::vector<std::string> warnings = resolved.deprecations();
   for (const std::string& text : case_warnings(resolved)) warnings.push_back(text);
+  const UsualOpening opening = usual_opening(resolved.written());
+  for (const std::string& text : margin_warnings(load_margins(resolved, opening.load)))
+    warnings.push_back(fmt::format("when it opens at {} m/s ({} N, infinite mass): {}",
+                                   rounded(opening.speed, 3), rounded(opening.load), text));
   return {summarize(resolved), resolved.sources(), std::move(warnings), resolved};
 }
 

@@ -1,0 +1,30 @@
+#include "ripstop/run/sizing/check.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "ripstop/case/case.h"
+#include "ripstop/case/resolve.h"
+
+namespace ripstop {
+namespace {
+
+bool warns_of_opening(const CheckResult& result) {
+  return std::any_of(result.warnings.begin(), result.warnings.end(), [](const std::string& text) {
+    return text.starts_with("when it opens at ") && text.find("margin of safety") != std::string::npos;
+  });
+}
+
+TEST(CheckMargins, OfMembersThatTheOpeningBreaksAreWarnings) {
+  Case given = read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/flat-circular/case.toml");
+  given.payload.mass_kg.reset();
+  given.flow.speed_m_s = 5;
+  EXPECT_FALSE(warns_of_opening(run_check(resolve(given))));
+  given.flow.speed_m_s = 90;
+  EXPECT_TRUE(warns_of_opening(run_check(resolve(given))));
+}
+
+}  // namespace
+}  // namespace ripstop
