@@ -48,9 +48,8 @@ std::string air_text(double height, double density, const std::string& from) {
 void print_stage(const StageLoads& s, const LoadResult& r, const std::string& known_caution) {
   print_text(
       "\nat {:.2f} s: {:.3g} m/s on a path {:.3g} deg below the horizon, {:.4g} m above sea level, {:.4g} "
-      "kg/m3, "
-      "drag area {:.3g} to {:.3g} m2\n"
-      "  filling time {:.3g} s (n = {:.3g}), ballistic parameter {:.3g}, mass ratio {:.3g}\n",
+      "kg/m3, drag area {:.3g} to {:.3g} m2\n"
+      "  filling time {:.3g} s ({:.3g} D0 at this speed), ballistic parameter {:.3g}, mass ratio {:.3g}\n",
       s.begin, s.speed, s.path_angle, s.height, s.density, s.drag_area_before, s.drag_area, s.filling_time,
       s.filling_constant, s.ballistic_parameter, s.mass_ratio);
   const int width = both_units() ? 24 : 10;

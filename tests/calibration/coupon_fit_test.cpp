@@ -239,7 +239,7 @@ TEST_F(CouponFitting, TheMaterialFileReadsBackToTheSameMaterial) {
   // Beyond the tests the material has a warning, within them it has none.
   EXPECT_TRUE(material_warnings(after, 0.9 * after.tested_strain).empty());
   ASSERT_EQ(material_warnings(after, 1.1 * after.tested_strain).size(), 1u);
-  EXPECT_NE(material_warnings(after, 1.1 * after.tested_strain)[0].find("exceeds the tested"),
+  EXPECT_NE(material_warnings(after, 1.1 * after.tested_strain)[0].find("exceeds the tested strain"),
             std::string::npos);
 }
 

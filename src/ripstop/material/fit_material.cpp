@@ -371,8 +371,10 @@ std::vector<std::string> material_warnings(const Material& material, double larg
         std::vector<std::string> list;
         if (!m.warning.empty()) list.push_back(fmt::format("{}: {}", m.name, m.warning));
         if (m.tested_strain > 0 && largest_strain > m.tested_strain)
-          list.push_back(fmt::format("{}: strain {:.3g} exceeds the tested {:.3g}; the law is extrapolated",
-                                     m.name, largest_strain, m.tested_strain));
+          list.push_back(
+              fmt::format("{}: the largest strain of a spring, {:.3g}, exceeds the tested strain of {:.3g}; "
+                          "the law is extrapolated",
+                          m.name, largest_strain, m.tested_strain));
         if (const std::optional<double> specific = specific_strength(m);
             specific && *specific > strongest_fibre)
           list.push_back(

@@ -76,9 +76,11 @@ fs::path write_into(const fs::path& folder, const std::string& page) {
 ReportRun report_of(const fs::path& folder) {
   const fs::path result = folder / "result.json";
   if (!fs::exists(result) || !fs::exists(folder / "run.json"))
-    throw Error(ExitCode::usage,
-                fmt::format("{}: contains no finished run of ripstop steady, inflate, fly or sweep",
-                            folder.string()));
+    throw Error(
+        ExitCode::usage,
+        fmt::format("{}: {}", folder.string(),
+                    fs::exists(folder) ? "contains no finished run of ripstop steady, inflate, fly or sweep"
+                                       : "the folder does not exist"));
   ReportRun run;
   run.name = name_of(folder);
   add_result(run, read_file(result), result);
