@@ -28,12 +28,12 @@ using DragArea = std::function<double(double time, double distance)>;
 /// A part of the trajectory under one law of the drag area.
 struct Leg {
   DragArea drag_area;
-  double duration = 0;       // [s]
-  double step = 0;           // of the time, at most [s]
-  double ground = 0;         // the leg ends there [m]
-  double density_ratio = 1;  // of the air to that of the standard atmosphere at every height
+  double duration = 0;  // [s]
+  double step = 0;      // of the time, at most [s]
+  double ground = 0;    // the leg ends there [m]
   bool until_steady =
       false;  // and where the speed is the terminal one within 0.1 %, straight down within 0.1 deg
+  double density_ratio = 1;  // of the air to that of the standard atmosphere at every height
 };
 
 /// A mass point under drag and weight, m dv/dt = -D v/|v| + m g, by the classic Runge-Kutta method of fourth order.
