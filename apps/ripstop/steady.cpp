@@ -19,6 +19,7 @@
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/cost.h"
 #include "ripstop/core/error.h"
+#include "ripstop/core/words.h"
 #include "ripstop/fsi/convergence.h"
 #include "ripstop/run/engine.h"
 #include "ripstop/run/report/report.h"
