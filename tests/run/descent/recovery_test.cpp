@@ -163,7 +163,7 @@ TEST(Recovery, EveryRequiredStrengthIsForTheUpperEndOfTheDesignLoad) {
 // Margins under the upper end of the load, and the lower end of the safe speed, are one statement.
 TEST(Recovery, APartExceedsItsAllowableLoadIfAndOnlyIfItOpensAboveTheSafeSpeed) {
   const std::vector<Setting> axial = with_coefficient("axial");  // a wide range
-  const RecoveryResult free = run_recovery(canopy(3.5, axial), canopy(0.7), request());
+  const RecoveryResult free = run_recovery(canopy(3.5, axial), canopy(1.2), request());
   for (const std::size_t stage : {0U, 1U})
     for (const double share : {0.7, 0.99, 1.01, 1.4}) {
       const std::vector<Setting> link = {
@@ -171,13 +171,12 @@ TEST(Recovery, APartExceedsItsAllowableLoadIfAndOnlyIfItOpensAboveTheSafeSpeed) 
       std::vector<Setting> main = axial;
       if (stage == 1) main.push_back(link[0]);
       const RecoveryStage s =
-          run_recovery(canopy(3.5, main), canopy(0.7, stage == 0 ? link : std::vector<Setting>{}), request())
+          run_recovery(canopy(3.5, main), canopy(1.2, stage == 0 ? link : std::vector<Setting>{}), request())
               .stages[stage];
       const auto part = std::find_if(s.margins->members.begin(), s.margins->members.end(),
                                      [](const Margin& m) { return m.member == "link"; });
       ASSERT_NE(part, s.margins->members.end());
       EXPECT_NEAR(*part->used, 1 / share, 1e-9);
-      ASSERT_TRUE(share > 1 || s.margins->weakest == "link");
       const bool exceeded = *weakest(*s.margins)->used > 1;
       EXPECT_EQ(exceeded, share < 1) << s.name << share;
       EXPECT_EQ(exceeded, s.safe.unsafe_at || s.speed.high > *s.safe.lowest) << s.name << share;

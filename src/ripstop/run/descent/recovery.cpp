@@ -354,11 +354,13 @@ namespace {
 
 /// All values with a range; the groups of three rows that result.json makes of them are left out.
 void add_ranges(ReportRun& run, const RecoveryResult& r) {
-  ReportTable table{"ranges",
-                    "Values with their ranges",
-                    "With the smallest and the largest drag coefficients of all parachutes in descent.",
-                    {{"stage", ""}, {"quantity", ""}, {"value", ""}, {"low", ""}, {"high", ""}, {"unit", ""}},
-                    {}};
+  ReportTable table{
+      "ranges",
+      "Values with their ranges",
+      "With the smallest and the largest drag coefficients of all parachutes in descent; design "
+      "loads with their uncertainty.",
+      {{"stage", ""}, {"quantity", ""}, {"value", ""}, {"low", ""}, {"high", ""}, {"unit", ""}},
+      {}};
   const auto add = [&](const std::string& stage, const std::string& quantity, const Ranged& value,
                        const char* unit) {
     table.rows.push_back({stage, quantity, fmt::format("{:.5g}", value.value),

@@ -173,8 +173,8 @@ std::string to_json(const RecoveryResult& result);
 /// main. Opening loads are those of run_load() at the speed, height and path of the flight. The design load of a stage
 /// is at least the largest force on its canopy along the trajectory. The upper end of its range is the load at the
 /// highest speed plus the uncertainty: the range of the coefficient and the scatter of openings, as independent parts;
-/// the lower end likewise. The fastest safe deployment has the same uncertainty. The canopies follow the wind at once. Wind: [flight.wind] of the
-/// main's case. Throws Error(usage) as run_load(), and for a main that opens above the apogee.
+/// the lower end likewise. The fastest safe deployment has the same uncertainty. The canopies follow the wind at once.
+/// Wind: [flight.wind] of the main's case. Throws Error(usage) as run_load(), and for a main that opens above the apogee.
 RecoveryResult run_recovery(const Settings& main, const std::optional<Settings>& drogue,
                             const RecoveryRequest& request);
 
