@@ -60,7 +60,7 @@ SnatchChange.half_stiffness_n: snatch load with half the stiffness; None: a part
 SnatchChange.double_stiffness_n: snatch load with twice the stiffness; None: a part breaks
 Margin.member: member: cloth, tape, a line, riser or a part of the hardware
 Margin.load: largest load of the member, without the safety factor
-Margin.load_from: what the load of hardware is in an opening; None: of other members and results
+Margin.load_from: kind of load of hardware in an opening; None: of other members and results
 Margin.unit: unit of load and strength: N/m for cloth, else N
 Margin.strength: strength of the material as sold; None: not known
 Margin.strength_from: source of the strength
