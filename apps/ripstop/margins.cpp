@@ -26,23 +26,27 @@ void print_payload(const SteadyResult& r) {
                         r.payload->speeds));
 }
 
-void print_margins(const std::optional<Margins>& margins) {
+void print_margins(const std::optional<Margins>& margins, std::optional<double> largest) {
   if (!margins) return;
+  const auto under_largest = [&](const Margin& m) {
+    return largest ? fmt::format(" ({:.1f} %)", 100 * *largest * *m.used) : "";
+  };
   std::string text;
   for (const Margin& m : weakest_of_kinds(*margins))
     text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", m.member,
-                        m.used       ? fmt::format("{:.1f} %", 100 * *m.used)
+                        m.used       ? fmt::format("{:.1f} %", 100 * *m.used) + under_largest(m)
                         : m.strength ? std::string("no load")
                                      : std::string("strength not known"));
-  print_row("utilisation", text);
+  print_row("utilisation", text + (largest ? "; under the design load (under the largest load)" : ""));
   if (!margins->weakest.empty()) {
     const Margin& m = *weakest(*margins);
-    print_row("weakest member",
-              fmt::format("{}: load {} {} times safety factor {:.3g}, allowable load {} {} ({:.0f} % of the "
-                          "strength); margin of safety {:+.2f}{}",
-                          m.member, rounded(m.load), m.unit, *m.used * *m.strength * m.knock_down / m.load,
-                          rounded(*m.strength * m.knock_down), m.unit, 100 * m.knock_down, *m.margin,
-                          *m.margin < 0 ? ": ALLOWABLE LOAD EXCEEDED" : ""));
+    print_row(
+        "weakest member",
+        fmt::format("{}: {} {} {} times safety factor {:.3g}, allowable load {} {} ({:.0f} % of the "
+                    "strength); margin of safety {:+.2f}{}",
+                    m.member, m.load_from.value_or("load"), rounded(m.load), m.unit,
+                    *m.used * *m.strength * m.knock_down / m.load, rounded(*m.strength * m.knock_down),
+                    m.unit, 100 * m.knock_down, *m.margin, *m.margin < 0 ? ": ALLOWABLE LOAD EXCEEDED" : ""));
   }
 }
 

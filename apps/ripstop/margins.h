@@ -13,7 +13,8 @@ namespace ripstop::cli {
 /// `max_line_tension` in N.
 void print_stresses(double max_line_tension, const StressPeak& stress);
 void print_payload(const SteadyResult& result);
-void print_margins(const std::optional<Margins>& margins);
+/// With `largest`, the ratio of the largest load to the load of the margins, the utilisation under both.
+void print_margins(const std::optional<Margins>& margins, std::optional<double> largest = {});
 /// Strength that each part of the hardware needs.
 std::string hardware_text(const HardwareNeed& need);
 /// "12.3 m/s, range 11 to 14 m/s, line reaches its allowable load", or that there is none.

@@ -56,6 +56,8 @@ void print_stage(const RecoveryStage& s) {
       "design load",
       fmt::format("{}: {}", range_text({s.design_load, s.least_design_load, s.largest_design_load}, "N"),
                   s.design_load_from));
+  print_row("uncertainty of the load",
+            fmt::format("{:.0f} % at one speed: {}", 100 * s.load_uncertainty, s.load_uncertainty_from));
   if (s.snatch_load)
     print_row("snatch load", fmt::format("{} N by [deployment] of its case, at the highest airspeed",
                                          rounded(*s.snatch_load)));
@@ -66,7 +68,7 @@ void print_stage(const RecoveryStage& s) {
                             : ""));
   print_margins(s.margins);
   print_row("required hardware", hardware_text(s.hardware));
-  print_row("fastest safe deployment", safe_speed_text(s.safe));
+  print_row("fastest safe deployment", safe_speed_text(s.safe) + " with the same uncertainty");
   print_row("descent rate at the end", range_text(s.descent_rate, "m/s"));
   print_row("duration", range_text(s.duration, "s"));
   print_row("drift", range_text(s.drift, "m"));
@@ -97,7 +99,8 @@ void print_result(const RecoveryResult& r, const fs::path& folder) {
   if (r.wind.speed_m_s > 0) print_row("drift with the wind", range_text(r.drift, "m"));
   print_row("path in still air", fmt::format("{} m along the flight direction at apogee", rounded(r.range)));
   print_text(
-      "Ranges: with the smallest and the largest drag coefficients of all parachutes in descent.\n"
+      "Ranges: with the smallest and the largest drag coefficients of all parachutes in descent; those of "
+      "loads also with the scatter of openings.\n"
       "{} (report.html, height.png, speed.png, trajectory.csv, result.json)\n",
       folder.string());
 }

@@ -78,7 +78,7 @@ void print_result(const SizeResult& r, const fs::path& file, const fs::path& pag
   row("applicable methods",
       fmt::format("opening load {:.0f} to {:.0f} N (ripstop load)", r.opening_load_low, r.opening_load));
   if (!r.opening.front().caution.empty()) row("", r.opening.front().caution);
-  print_margins(r.margins);
+  print_margins(r.margins, r.largest_load / r.design_load);
   for (const SizeCheck& c : r.checks)
     row(c.basis == "descent" ? "flight" : "run",
         fmt::format("diameter {:.3f} m, descent rate {:.3f}{} m/s, C_D {:.3f} ({})", c.nominal_diameter,

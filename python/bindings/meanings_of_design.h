@@ -60,6 +60,7 @@ SnatchChange.half_stiffness_n: snatch load with half the stiffness; None: a part
 SnatchChange.double_stiffness_n: snatch load with twice the stiffness; None: a part breaks
 Margin.member: member: cloth, tape, a line, riser or a part of the hardware
 Margin.load: largest load of the member, without the safety factor
+Margin.load_from: kind of load of hardware in an opening; None: of other members and results
 Margin.unit: unit of load and strength: N/m for cloth, else N
 Margin.strength: strength of the material as sold; None: not known
 Margin.strength_from: source of the strength
@@ -116,8 +117,9 @@ RecoveryStage.highest_load_n: largest opening load of the applicable methods
 RecoveryStage.lowest_drag_coefficient: lower end of the range of the drag coefficient in descent on S0
 RecoveryStage.highest_drag_coefficient: upper end of this range
 RecoveryStage.drag_coefficient_range_from: source of this range
-RecoveryStage.lowest_design_load_n: design load with the smallest drag coefficients
-RecoveryStage.highest_design_load_n: design load with the largest drag coefficients
+RecoveryStage.lowest_design_load_n: design load at the lowest airspeed less its uncertainty
+RecoveryStage.highest_design_load_n: design load at the highest airspeed plus its uncertainty
+RecoveryStage.load_uncertainty: relative uncertainty of the load at one speed: range of the drag coefficient and scatter
 RecoveryStage.snatch_load_n: snatch load by [deployment] of its case, at the highest airspeed; None: without [deployment]
 RecoveryStage.margins: margins under the largest design load; of all but tape or hem under a larger snatch load
 RecoveryStage.required_hardware: strength that each part of the hardware needs under the same load

@@ -83,6 +83,22 @@ TEST(MarginMembers, OfARunAreThoseOfALoadAndTheCloth) {
   }
 }
 
+// The lines have their highest loads at different times: their sum is no load of the hardware.
+TEST(MarginMembers, HardwareOfAnOpeningCarriesTheLargestRiserLoad) {
+  Case given = flat_circular_case(1, 500, 20);
+  given.hardware["link"].rated_load_n = 1000;
+  const Settings resolved = resolve(checked(given));
+  const CanopyMesh mesh = parachute_mesh(resolved);
+  const std::vector<double> peaks(mesh.springs.size(), 8.0);
+  const Margin opening = case_margins(resolved, mesh, peaks, {}, {}, 50.0).members.back(),
+               shape = case_margins(resolved, mesh, peaks, {}).members.back();
+  EXPECT_EQ(opening.load, 50);
+  EXPECT_EQ(opening.load_from, "largest riser load");
+  EXPECT_EQ(*opening.used, 0.05);
+  EXPECT_GE(shape.load, 8.0 * resolved.parachute().lines.count) << "the sum of the lines";
+  EXPECT_FALSE(shape.load_from);
+}
+
 TEST(MarginWarnings, NameEveryKindOfMemberBelowZeroOnce) {
   const auto member = [](const char* name, double used) {
     Margin m;

@@ -61,6 +61,7 @@ Margins margins_of(const MemberLoads& loads, const MarginFactors& f, const Fabri
     const bool textile = part.kind == Hardware::Kind::textile && !part.rated_load_n;
     members.push_back(margin_of(name, loads.hardware, "N", strength, textile ? joined : 1,
                                 part.rated_load_n ? 1 : f.safety_factor));
+    members.back().load_from = loads.hardware_from;
   }
   if (const Margin* least = weakest(result)) result.weakest = least->member;
   return result;

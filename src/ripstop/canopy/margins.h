@@ -42,6 +42,7 @@ struct MemberLoads {
   };
   std::vector<OtherLine> others = {};
   double hardware = 0;  // of every part of it [N]
+  std::optional<std::string> hardware_from = {};
 };
 
 /// Loads of skirt, vent and seams, which carry the load of one line [N]: the tape, or without one (null) a hem of the
@@ -52,7 +53,8 @@ struct Margin {
   std::string member;  // "cloth", "tape", "line 3", "riser", "reefing line 1"
   double load = 0;     // [N/m] of cloth, else [N]
   std::string unit;
-  std::optional<double> strength;  // of the material as it is sold; absent: not known
+  std::optional<std::string> load_from;  // of hardware in an opening
+  std::optional<double> strength;        // of the material as it is sold; absent: not known
   std::string strength_from;
   double knock_down = 1;  // share of it that is left
   std::optional<double>

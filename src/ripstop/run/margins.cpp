@@ -29,7 +29,7 @@ void take_weakest(Margins& margins) {
 
 Margins case_margins(const Settings& resolved, const CanopyMesh& mesh,
                      const std::vector<double>& spring_tensions, const StressPeak& stress,
-                     const std::vector<double>& reefing_tensions) {
+                     const std::vector<double>& reefing_tensions, std::optional<double> largest_load) {
   const Line& riser = resolved.materials().riser;
   MemberLoads loads;
   loads.cloth = std::max(stress.warp, stress.weft);
@@ -54,8 +54,9 @@ Margins case_margins(const Settings& resolved, const CanopyMesh& mesh,
       loads.hardware += load;
     }
   }
-  // Without a riser the lines pull at the hardware; the sum of their peaks is an upper bound of that load.
+  // Without a riser the lines pull at the hardware; the sum of their loads is an upper bound of that load.
   if (!(loads.riser > 0)) loads.hardware = std::accumulate(loads.lines.begin(), loads.lines.end(), 0.0);
+  if (largest_load) loads.hardware = *largest_load, loads.hardware_from = "largest riser load";
   for (std::size_t i = 0; i < reefing_tensions.size(); ++i)
     loads.others.push_back(
         {"reefing line " + std::to_string(i + 1), reefing_tensions[i], resolved.reefing_lines()[i]});

@@ -16,6 +16,7 @@ template <Of<Margin> T, class Visit>
 void each_member(T& m, Visit&& visit) {
   visit("member", m.member);
   visit("load", m.load);
+  visit("load_from", m.load_from);
   visit("unit", m.unit);
   visit("strength", m.strength);
   visit("strength_from", m.strength_from);
@@ -37,10 +38,12 @@ void each_member(T& n, Visit&& visit) {
 }
 
 /// `spring_tensions` of all springs outside the cloth, of a shape or the highest of an opening [N], and the highest
-/// ones of the reefing lines of so many stages.
+/// ones of the reefing lines of so many stages. The lines of an opening have their highest loads at different times:
+/// the hardware then carries the `largest_load` at the confluence [N]; absent: the sum of the risers, or of the lines.
 Margins case_margins(const Settings& resolved, const CanopyMesh& mesh,
                      const std::vector<double>& spring_tensions, const StressPeak& stress,
-                     const std::vector<double>& reefing_tensions = {});
+                     const std::vector<double>& reefing_tensions = {},
+                     std::optional<double> largest_load = {});
 
 /// Of lines, tape or hem, riser and hardware under an opening load [N]. A line carries an equal share of it times the
 /// family's line_load_factor, and the tape the load of one line, as in tape_for(); without one (null) a hem of the cloth.

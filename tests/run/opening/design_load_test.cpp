@@ -182,6 +182,8 @@ TEST(DesignLoad, AComputedPeakOutsideTheHandbooksRangeIsReportedWithTheReason) {
   EXPECT_NE(above->find("718 N is 5.4 times the highest finite-mass handbook load (trajectory: 134 N)"),
             std::string::npos)
       << *above;
+  EXPECT_NE(above->find("design for at least 718 N"), std::string::npos) << *above;
+  EXPECT_NE(handbook_disagreement(80, {}, methods)->find("at least 134 N"), std::string::npos);
   EXPECT_NE(above->find("after 1.2 nominal diameters"), std::string::npos) << *above;
   EXPECT_TRUE(handbook_disagreement(80, {}, methods));
   EXPECT_FALSE(handbook_disagreement(150, {}, methods));  // within the scatter of openings

@@ -118,6 +118,18 @@ TEST(Fastest, IsAbsentWhereTheLowerEndIsBelowTheSlowestDeployment) {
     }
 }
 
+// A load that does not depend on the speed, as the weight in a descent, is carried too.
+TEST(Fastest, WithALeastLoadIsAbsentOnlyWhereThatLoadIsNotCarried) {
+  const Settings resolved = flat_circular({{"hardware.link.rated_load_n", "400"}});
+  const LoadUncertainty third{0.3, "given"};
+  const SafeSpeed free = run_fastest(resolved, request(), 0, third).design(),
+                  light = run_fastest(resolved, request(), 0, third, 0.99 * 400 / 1.3).design(),
+                  heavy = run_fastest(resolved, request(), 0, third, 1.01 * 400 / 1.3).design();
+  EXPECT_EQ(light.lowest, free.lowest);
+  EXPECT_TRUE(heavy.unsafe_at && !heavy.lowest);
+  EXPECT_NEAR(*free.speed / *free.lowest, std::sqrt(1.3), 2e-3);
+}
+
 TEST(Hardware, NeedsExactlyOneStrengthAndItsStretchInFull) {
   for (const std::vector<Setting>& wrong :
        {std::vector<Setting>{{"hardware.a.strands", "2"}},

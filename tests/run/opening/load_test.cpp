@@ -211,6 +211,8 @@ TEST(Load, AComputedOpeningIsOneOfTheMethodsThatAreJudged) {
   const LoadResult r = run_load(resolve(given), asked);
   ASSERT_EQ(r.stages.size(), 1u);
   EXPECT_EQ(method(r.stages[0], "computed opening").load, *r.record_peak_load);
+  EXPECT_NE(method(r.stages[0], "computed opening").note.find("one disk-gap-band parachute"),
+            std::string::npos);
   expect_judged(r.stages[0]);
   // That canopy was not reefed.
   asked.reefing = {{0.3, 1}};

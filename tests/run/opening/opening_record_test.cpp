@@ -1,6 +1,7 @@
 // The drag area of a computed opening over its way through the air, from a folder that a test wrote.
 #include "ripstop/run/opening/opening_record.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,9 +9,11 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/output/csv.h"
+#include "ripstop/run/opening/fastest.h"
 #include "ripstop/run/opening/load.h"
 #include "ripstop/run/run_folder.h"
 #include "tests/refusal.h"
+#include "tests/run/opening/method_of.h"
 #include "tests/small_case.h"
 
 namespace ripstop {
@@ -77,6 +80,46 @@ TEST_F(OpeningRecords, OfAPayloadHasTheSpeedAndThePathOfItsFlight) {
   }
   write(history);
   EXPECT_NE(refusal(ExitCode::bad_data, given).find("requires air.csv"), std::string::npos);
+}
+
+// Drag areas of 0.5 to 2 m2, less than C_x C_D S0 = 4.3 m2 of the handbook, and a hundred times these.
+TEST_F(OpeningRecords, OnlyACoupledOpeningThatHasFilledLowersTheDesignLoad) {
+  struct Expected {
+    AirModel air;
+    const char* filled;
+    double factor;
+    bool designs;
+  };
+  given.hardware["link"].rated_load_n = 300;
+  for (const Expected& e : {Expected{AirModel::uniform, "", 1, false},
+                            {AirModel::uniform, "", 100, true},
+                            {AirModel::coupled, ", \"filled\": false", 1, false},
+                            {AirModel::coupled, "", 1, false},
+                            {AirModel::coupled, ", \"filled\": true", 1, true}}) {
+    given.inflation.air = e.air;
+    CsvTable history = opening_history;
+    for (auto& row : history.rows) row[1] *= e.factor;
+    write(history, nullptr, nullptr, fmt::format("{{\"peak_load_n\": 500{}}}", e.filled));
+    LoadRequest asked;
+    asked.payload_mass = 2.4, asked.speed = 20, asked.path_angle = 0, asked.opening = folder;
+    const LoadResult loads = run_load(resolve(given), asked);
+    const StageLoads& stage = loads.stages.front();
+    const double infinite = method(stage, infinite_mass_method).load;
+    EXPECT_EQ(loads.design_method, e.designs ? computed_method : infinite_mass_method);
+    EXPECT_EQ(loads.design_load, e.designs ? *loads.record_peak_load : infinite);
+    EXPECT_EQ(*loads.record_peak_load > infinite, e.factor > 1);
+    const MethodLoad& computed = method(stage, computed_method);
+    const bool limited = e.air == AirModel::uniform || !e.designs;
+    EXPECT_EQ(computed.applies, !limited);
+    EXPECT_EQ(computed.note.find("used for design only if it has the largest load") != std::string::npos,
+              limited)
+        << computed.note;
+    const FastestResult fastest = run_fastest(resolve(given), asked);
+    EXPECT_EQ(fastest.design_method, limited ? infinite_mass_method : computed_method);
+    LoadRequest there = asked;
+    there.speed = *fastest.design().speed;
+    EXPECT_NEAR(run_load(resolve(given), there).design_load, 300, 1) << "the load command agrees";
+  }
 }
 
 TEST_F(OpeningRecords, FillingIsThatOfTheResultAndRefusedWhereThereIsNone) {

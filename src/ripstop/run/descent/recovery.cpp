@@ -20,9 +20,11 @@
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/validity.h"
 #include "ripstop/flight/wind.h"
+#include "ripstop/fsi/opening_estimate.h"
 #include "ripstop/output/csv.h"
 #include "ripstop/output/plot.h"
 #include "ripstop/run/json.h"
+#include "ripstop/run/opening/handbook.h"
 #include "ripstop/run/opening/snatch.h"
 #include "ripstop/run/report/report.h"
 #include "ripstop/run/report/report_tables.h"
@@ -179,31 +181,56 @@ Ranged ranged(const std::vector<Flown>& flights, Of3&& of) {
   return {a, std::min({a, b, c}), std::max({a, b, c})};
 }
 
-struct EndLoads {
-  double design = 0;             // [N]
-  std::optional<double> snatch;  // of [deployment] [N]
+/// The opening of a stage at the lowest or the highest speed of all flights, with the usual drag coefficient.
+struct EndOpening {
+  LoadRequest asked;
+  LoadResult load;
+  LoadUncertainty uncertainty;  // of the load: range of C_D in descent and scatter of openings
+  /// Of the trajectories with their ranges, and of a method with more than infinite mass: it does not decrease with the
+  /// speed as that load does [N].
+  double least_load = 0;
+
+  double design_load() const { return std::max(load.design_load, least_load); }
 };
 
-/// With the coefficient at one end of its range, at the speed of the flight that is slowest or fastest there; the design
-/// load is at least the largest force on the canopy of any flight, or at the low end the smallest of them.
-EndLoads loads_at(DragEnd end, const RecoveryCanopy& canopy, std::size_t i, const std::vector<Flown>& flights,
-                  const RecoveryRequest& request) {
+/// Relative to the load of the usual coefficient, and at least the uncertainty that run_fastest() takes.
+LoadUncertainty uncertainty_at(DragEnd end, const RecoveryCanopy& canopy) {
+  const Design& design = canopy.resolved.parachute();
+  const double ratio = design_drag_coefficient(design, drag_at(end, canopy)) /
+                       design_drag_coefficient(design, canopy.drag.value);
+  DragCoefficient drag = canopy.drag;
+  if (std::abs(ratio - 1) > drag.uncertainty + 1e-9) {
+    drag.from = fmt::format(
+        "range of C_D in descent; ripstop load --fastest takes {:.0f} %, of the coefficient without that "
+        "range",
+        100 * drag.uncertainty);
+    drag.uncertainty = std::abs(ratio - 1);
+  }
+  return load_uncertainty(drag);
+}
+
+/// The forces of the trajectories contain the range of C_D already, and not the scatter of openings.
+EndOpening opening_at(DragEnd end, const RecoveryCanopy& canopy, std::size_t i,
+                      const std::vector<Flown>& flights, const RecoveryRequest& request) {
   const bool high = end == DragEnd::high;
   const auto faster = [&](const Flown& a, const Flown& b) {
     return a.stages[i].opening.speed < b.stages[i].opening.speed;
   };
   const auto [slowest, fastest] = std::minmax_element(flights.begin(), flights.end(), faster);
   const FlownStage& stage = (high ? *fastest : *slowest).stages[i];
-  const double mass = stage.load.payload_mass + canopy.mass;
+  EndOpening opening;
+  opening.uncertainty = uncertainty_at(end, canopy);
   double peak = stage.peak_force;
   for (const Flown& flown : flights)
     peak = high ? std::max(peak, flown.stages[i].peak_force) : std::min(peak, flown.stages[i].peak_force);
-  const LoadRequest asked = opening_of(canopy, drag_at(end, canopy), stage.opening, mass, request);
-  const LoadResult load = run_load(canopy.resolved, asked);
-  EndLoads loads{std::max(peak, load.design_load), {}};
-  if (!high) return loads;
-  if (const auto snatch = snatch_of(canopy.resolved, asked, load)) loads.snatch = snatch->load;
-  return loads;
+  const double sign = high ? 1 : -1;
+  opening.least_load = peak * (1 + sign * opening_scatter) / (1 + sign * opening.uncertainty.value);
+  opening.asked =
+      opening_of(canopy, canopy.drag.value, stage.opening, stage.load.payload_mass + canopy.mass, request);
+  opening.load = run_load(canopy.resolved, opening.asked);
+  if (opening.load.design_method != infinite_mass_method)
+    opening.least_load = std::max(opening.least_load, opening.load.design_load);
+  return opening;
 }
 
 RecoveryStage stage_of(const RecoveryCanopy& canopy, std::size_t i, const std::vector<Flown>& flights,
@@ -223,17 +250,17 @@ RecoveryStage stage_of(const RecoveryCanopy& canopy, std::size_t i, const std::v
   s.design_load = load.design_load, s.design_load_from = load.design_load_from;
   if (flown.peak_force > s.design_load)
     s.design_load = flown.peak_force, s.design_load_from = "largest force of the trajectory";
-  const EndLoads high = loads_at(DragEnd::high, canopy, i, flights, request);
-  s.least_design_load = loads_at(DragEnd::low, canopy, i, flights, request).design;
-  s.largest_design_load = high.design, s.snatch_load = high.snatch;
-  const double required = std::max(high.design, high.snatch.value_or(0));
-  s.margins = load_margins(canopy.resolved, high.design, high.snatch.value_or(0));
-  s.hardware = hardware_need(required, canopy.resolved.margins());
-  LoadRequest asked;
-  asked.payload_mass = load.payload_mass, asked.height = load.height, asked.ground = request.ground;
-  asked.path_angle = std::max(flown.opening.path_angle, 0.0);
-  asked.drag_coefficient = canopy.drag.value;
-  s.safe = run_fastest(canopy.resolved, asked).design();
+  const EndOpening low = opening_at(DragEnd::low, canopy, i, flights, request),
+                   high = opening_at(DragEnd::high, canopy, i, flights, request);
+  s.least_design_load = (1 - low.uncertainty.value) * low.design_load();
+  s.largest_design_load = (1 + high.uncertainty.value) * high.design_load();
+  s.load_uncertainty = high.uncertainty.value, s.load_uncertainty_from = high.uncertainty.from;
+  const auto snatch = snatch_of(canopy.resolved, high.asked, high.load);
+  if (snatch) s.snatch_load = snatch->largest();
+  const double largest_snatch = s.snatch_load.value_or(0);
+  s.margins = load_margins(canopy.resolved, s.largest_design_load, largest_snatch);
+  s.hardware = hardware_need(std::max(s.largest_design_load, largest_snatch), canopy.resolved.margins());
+  s.safe = run_fastest(canopy.resolved, high.asked, 0, high.uncertainty, high.least_load).design();
   s.descent_rate = ranged(flights, [&](const Flown& f) { return f.stages[i].end_speed; });
   s.duration = ranged(flights, [&](const Flown& f) { return f.stages[i].duration; });
   s.drift = ranged(flights, [&](const Flown& f) { return f.stages[i].drift; });
@@ -327,11 +354,13 @@ namespace {
 
 /// All values with a range; the groups of three rows that result.json makes of them are left out.
 void add_ranges(ReportRun& run, const RecoveryResult& r) {
-  ReportTable table{"ranges",
-                    "Values with their ranges",
-                    "With the smallest and the largest drag coefficients of all parachutes in descent.",
-                    {{"stage", ""}, {"quantity", ""}, {"value", ""}, {"low", ""}, {"high", ""}, {"unit", ""}},
-                    {}};
+  ReportTable table{
+      "ranges",
+      "Values with their ranges",
+      "With the smallest and the largest drag coefficients of all parachutes in descent; design "
+      "loads with their uncertainty.",
+      {{"stage", ""}, {"quantity", ""}, {"value", ""}, {"low", ""}, {"high", ""}, {"unit", ""}},
+      {}};
   const auto add = [&](const std::string& stage, const std::string& quantity, const Ranged& value,
                        const char* unit) {
     table.rows.push_back({stage, quantity, fmt::format("{:.5g}", value.value),

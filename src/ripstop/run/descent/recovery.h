@@ -56,7 +56,9 @@ struct RecoveryStage {
   double filling_time = 0;  // [s]
   double lowest_load = 0, highest_load = 0;               // of the methods that apply [N]
   double design_load = 0;                                 // [N]
-  double least_design_load = 0, largest_design_load = 0;  // with the ranges of drag and speed [N]
+  double least_design_load = 0, largest_design_load = 0;  // with the ranges of drag, speed and scatter [N]
+  double load_uncertainty = 0;                            // of its upper end at one speed, relative
+  std::string load_uncertainty_from;
   std::string design_load_from;
   std::optional<double> snatch_load;  // by [deployment] of the case, at the highest speed [N]
   HardwareNeed hardware;             // under the largest design load, or the snatch load where that is larger
@@ -91,6 +93,8 @@ void each_member(T& s, Visit&& visit) {
   visit("design_load_n", s.design_load);
   visit("lowest_design_load_n", s.least_design_load);
   visit("highest_design_load_n", s.largest_design_load);
+  visit("load_uncertainty", s.load_uncertainty);
+  visit("load_uncertainty_from", s.load_uncertainty_from);
   visit("design_load_from", s.design_load_from);
   visit("snatch_load_n", s.snatch_load);
   visit("required_hardware", s.hardware);
@@ -167,9 +171,10 @@ std::string to_json(const RecoveryResult& result);
 
 /// A point mass from apogee to the ground: body alone during the delay, then with the first parachute, then with the
 /// main. Opening loads are those of run_load() at the speed, height and path of the flight. The design load of a stage
-/// is at least the largest force on its canopy along the trajectory; its range combines the smallest coefficient with the
-/// lowest speed, and the largest with the highest. The canopies follow the wind at once. Wind: [flight.wind] of the
-/// main's case. Throws Error(usage) as run_load(), and for a main that opens above the apogee.
+/// is at least the largest force on its canopy along the trajectory. The upper end of its range is the load at the
+/// highest speed plus the uncertainty: the range of the coefficient and the scatter of openings, as independent parts;
+/// the lower end likewise. The fastest safe deployment has the same uncertainty. The canopies follow the wind at once.
+/// Wind: [flight.wind] of the main's case. Throws Error(usage) as run_load(), and for a main that opens above the apogee.
 RecoveryResult run_recovery(const Settings& main, const std::optional<Settings>& drogue,
                             const RecoveryRequest& request);
 

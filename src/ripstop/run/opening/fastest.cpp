@@ -87,6 +87,15 @@ MethodPeak peak_of(const LoadResult& r, const std::string& method) {
   return peak;
 }
 
+/// The load of the design method, or a larger one of a computed opening with a limit or of the whole descent.
+MethodPeak design_peak(const LoadResult& r, const std::string& method, double least_load) {
+  MethodPeak peak = peak_of(r, method);
+  if (const MethodPeak computed = peak_of(r, computed_method); computed.load > peak.load)
+    peak = {computed.load, false, "the larger load of the computed opening is used"};
+  if (least_load > peak.load) peak = {least_load, false, "the largest load of the descent is used"};
+  return peak;
+}
+
 /// The largest speed from `low`, at which `keeps` is true, up to the fastest deployment at which `keeps` is true; nothing: it is true at all of
 /// them.
 template <class Keeps>
@@ -101,19 +110,23 @@ std::optional<double> largest_speed(double low, Keeps&& keeps) {
 }
 
 SafeSpeed safe_speed(const Settings& resolved, const LoadsAtSpeed& loads, const std::string& method,
-                     double slowest, const FastestResult& r) {
+                     double slowest, double least_load, const FastestResult& r) {
+  const bool design = method == r.design_method;
+  const auto peak_at = [&](double speed) {
+    return design ? design_peak(loads.at(speed), method, least_load) : peak_of(loads.at(speed), method);
+  };
   const auto least = [&](double load, double speed) {
     return *weakest(load_margins(resolved, load, loads.snatch_load(speed)));
   };
   const auto speed_with = [&](double factor) {
     return largest_speed(slowest, [&](double speed) {
-      return *least(factor * peak_of(loads.at(speed), method).load, speed).margin >= r.margin;
+      return *least(factor * peak_at(speed).load, speed).margin >= r.margin;
     });
   };
   SafeSpeed safe;
   safe.method = method;
   // The lower end is a claim too: with its load even the slowest deployment has to keep the margin.
-  if (*least((1 + r.load_uncertainty) * peak_of(loads.at(slowest), method).load, slowest).margin < r.margin) {
+  if (*least((1 + r.load_uncertainty) * peak_at(slowest).load, slowest).margin < r.margin) {
     safe.unsafe_at = slowest;
   } else {
     safe.speed = speed_with(1);
@@ -121,7 +134,7 @@ SafeSpeed safe_speed(const Settings& resolved, const LoadsAtSpeed& loads, const 
     safe.highest = speed_with(1 - r.load_uncertainty);
   }
   const double at = safe.unsafe_at ? slowest : safe.speed.value_or(fastest_deployment);
-  const MethodPeak peak = peak_of(loads.at(at), method);
+  const MethodPeak peak = peak_at(at);
   safe.load = peak.load, safe.applies = peak.applies, safe.note = peak.note;
   safe.member = least(peak.load, at).member;
   return safe;
@@ -160,9 +173,10 @@ std::string advice_of(const FastestResult& r, double filling_distance) {
   return text +
          fmt::format(
              ". The other methods allow {} to {}, because the payload slows down while the canopy fills "
-             "over {:.3g} D0. A canopy that is thrown open fills within 1 to 3 D0 and does not allow "
-             "them. Use them only if a measured or computed opening of this deployment (--opening) "
-             "confirms that distance",
+             "over {:.3g} D0. The distance depends on the deployment: a canopy that is thrown open fills "
+             "over "
+             "a shorter one and then has a higher load. Use these speeds only if a measured opening or a "
+             "coupled inflation (--opening) of this deployment confirms that distance",
              printed(low), printed(high), filling_distance);
 }
 
@@ -177,7 +191,8 @@ std::string to_json(const FastestResult& result) {
   return json_text(result);
 }
 
-FastestResult run_fastest(const Settings& resolved, LoadRequest request, double margin) {
+FastestResult run_fastest(const Settings& resolved, LoadRequest request, double margin,
+                          std::optional<LoadUncertainty> known, double least_load) {
   require_one_canopy(resolved, "an opening load");
   if (!(margin >= 0) || !std::isfinite(margin))
     throw Error(ExitCode::usage, fmt::format("a margin of safety of {:g}: must be 0 or above", margin));
@@ -198,17 +213,17 @@ FastestResult run_fastest(const Settings& resolved, LoadRequest request, double 
   r.title = fast.title, r.payload_mass = fast.payload_mass, r.parachute_mass = fast.parachute_mass;
   r.height = fast.height, r.density = fast.density, r.air_source = fast.air_source;
   r.path_angle = request.path_angle, r.margin = margin;
-  LoadUncertainty uncertainty = load_uncertainty(drag);
+  LoadUncertainty uncertainty = known ? std::move(*known) : load_uncertainty(drag);
   r.load_uncertainty = uncertainty.value, r.load_uncertainty_from = std::move(uncertainty.from);
   const double slowest =
       std::max(slowest_deployment, 1.001 * slowest_opening(r.payload_mass + r.parachute_mass,
                                                            fast.drag_coefficient * fast.reference_area,
                                                            r.density, request.path_angle));
   loads.require_snatch(slowest);
-  for (const MethodLoad& m : fast.stages.front().methods)
-    r.methods.push_back(safe_speed(resolved, loads, m.method, slowest, r));
-  const bool computed = fast.record_peak_load && request.reefing.empty();
+  const bool computed = fast.record_peak_load && request.reefing.empty() && fast.record_limit.empty();
   r.design_method = computed ? computed_method : infinite_mass_method;
+  for (const MethodLoad& m : fast.stages.front().methods)
+    r.methods.push_back(safe_speed(resolved, loads, m.method, slowest, least_load, r));
   r.snatch = loads.snatch(r.design().unsafe_at ? slowest : r.design().lowest.value_or(fastest_deployment));
   if (r.snatch && r.snatch->other_load) r.warnings.push_back(two_snatch_loads(*r.snatch));
   r.advice = advice_of(r, fast.filling_constant);

@@ -2,12 +2,27 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/words.h"
 #include "ripstop/run/opening/load.h"
 
 namespace ripstop::inline run {
+
+bool has_default_damping(const InflationSettings& inflation) {
+  const InflationSettings usual;
+  return inflation.damping_n_s_m3 == usual.damping_n_s_m3 &&
+         inflation.quadratic_damping_n_s2_m4 == usual.quadratic_damping_n_s2_m4;
+}
+
+std::string limit_of_damping(const InflationSettings& inflation) {
+  return fmt::format("its peak load follows from the damping of the cloth, {}",
+                     has_default_damping(inflation)
+                         ? "whose default was calibrated on one disk-gap-band parachute with a disk of 1 m"
+                         : "which the case gives");
+}
 
 std::vector<MethodLoad> handbook_methods(const Settings& resolved) {
   if (!resolved.payload().mass_kg) return {};
@@ -39,13 +54,15 @@ std::optional<std::string> handbook_disagreement(double computed, std::optional<
   return fmt::format(
       "the computed opening load of {} N is {:.2g} times the {} finite-mass handbook load ({}: {} N). The "
       "handbook methods assume a filling distance that was measured on larger and faster canopies{}. The "
-      "filling time depends on the deployment; design for the highest of these loads unless the load of your "
-      "parachute is measured",
+      "filling time depends on the deployment; design for at least {} N, the highest of these loads, unless "
+      "the "
+      "load of your parachute is measured",
       rounded(computed), computed / nearest.load, above ? "highest" : "lowest", nearest.method,
       rounded(nearest.load),
       distance
           ? fmt::format("; the computed opening reaches its peak after {:.2g} nominal diameters", *distance)
-          : "");
+          : "",
+      rounded(std::max(computed, highest->load)));
 }
 
 }  // namespace ripstop::inline run

@@ -14,6 +14,12 @@ namespace ripstop::inline run {
 /// (docs/theory/inflation.md, Step and cells), 2 to 6 % for solid canopies.
 inline constexpr double opening_scatter = 0.15;
 
+/// Whether a uniform-pressure inflation has the default damping, which was calibrated on one peak (docs/validation.md,
+/// Openings).
+bool has_default_damping(const InflationSettings& inflation);
+/// Why the peak load of a uniform-pressure inflation is not a prediction.
+std::string limit_of_damping(const InflationSettings& inflation);
+
 /// All methods of run_load() for the payload, speed and density of the case. Empty where they cannot be computed (no
 /// payload, or a descent rate above the speed).
 std::vector<MethodLoad> handbook_methods(const Settings& resolved);

@@ -201,6 +201,11 @@ void take_quality(InflationResult& r, const Settings& resolved, const Opening& s
       distance = row.path / nominal_diameter(resolved.parachute());
   if (const auto text = handbook_disagreement(r.smooth_peak.value_or(r.peak_load), distance, r.handbook))
     judgement.add({*text});
+  if (!solver.air() && has_default_damping(solver.problem().settings))
+    judgement.add({fmt::format(
+        "the peak load is not a prediction in uniform-pressure inflation: {}. Calibrate the damping on a "
+        "measured peak (ripstop calibrate damping), or set inflation.air = \"coupled\"",
+        limit_of_damping(solver.problem().settings))});
   judgement.add(r.source.warnings);
   judgement.add(slow_opening_warnings(resolved));
   judgement.add(mesh_warnings(resolved));
@@ -242,8 +247,8 @@ InflationResult result_of(const Settings& resolved, const LoadSource& source, co
   r.stress = state.highest_stress;
   r.stress_time = state.highest_stress_time;
   r.stages = stages_of(solver, state, history, start_up);
-  r.margins =
-      case_margins(resolved, solver.mesh(), state.record.peak_tension, r.stress, line_peaks(r.stages));
+  r.margins = case_margins(resolved, solver.mesh(), state.record.peak_tension, r.stress, line_peaks(r.stages),
+                           r.peak_load);
   compare_with_handbook(r, resolved, source, solver);
   take_quality(r, resolved, solver, history);
   r.steps = state.cloth.steps;

@@ -279,16 +279,24 @@ void fly_record(const Settings& resolved, const LoadRequest& request, LoadResult
   r.record_peak_load = peak.force;
   if (!request.reefing.empty()) return;
   StageLoads& stage = r.stages.front();
+  r.record_limit = record.limit;
+  const std::string from = "C_D S of " + request.opening.string() + " over the distance through the air";
+  if (!record.limit.empty()) {
+    stage.methods.push_back(
+        {computed_method, peak.force, peak.state.time, false,
+         fmt::format("{}; used for design only if it has the largest load ({})", from, record.limit)});
+    return;
+  }
   if (const auto text =
           handbook_disagreement(peak.force, peak.state.distance / r.nominal_diameter, stage.methods))
     r.warnings.push_back(*text);
-  stage.methods.push_back({computed_method, peak.force, peak.state.time, true,
-                           "C_D S of " + request.opening.string() + " over the distance through the air"});
+  stage.methods.push_back({computed_method, peak.force, peak.state.time, true, from});
   compare_methods(stage);
 }
 
 /// The infinite-mass load of the stage with the highest, or that of a method that applies and has more (a payload that is
-/// accelerated on its path), unless a measurement or a computed opening replaces it.
+/// accelerated on its path), unless a measurement or a computed opening replaces it. A computed opening with a limit
+/// replaces only a smaller load.
 void choose_design_load(const Settings& resolved, const LoadRequest& request, LoadResult& r) {
   for (const StageLoads& stage : r.stages)
     r.design_load = std::max(r.design_load, stage.methods.front().load);
@@ -305,7 +313,8 @@ void choose_design_load(const Settings& resolved, const LoadRequest& request, Lo
   if (request.measured_load) {
     r.design_load = *request.measured_load, r.design_load_from = "measured, as given";
     r.design_method.clear();
-  } else if (r.record_peak_load && request.reefing.empty()) {
+  } else if (r.record_peak_load && request.reefing.empty() &&
+             (r.record_limit.empty() || *r.record_peak_load > r.design_load)) {
     r.design_load = *r.record_peak_load, r.design_load_from = "computed opening " + request.opening.string();
     r.design_method = computed_method;
   }
@@ -403,8 +412,9 @@ LoadResult run_load(const Settings& resolved, const LoadRequest& request) {
         ExitCode::usage,
         fmt::format(
             "a descent rate of {} m/s is above the {} m/s of the deployment: the payload still "
-            "accelerates under the open canopy; take a higher speed, a smaller mass or a larger canopy",
-            rate, speed));
+            "accelerates under the open canopy on a path {:g} deg below the horizon; give --angle 0 for an "
+            "opening at apogee, a higher speed, a smaller mass or a larger canopy",
+            rate, speed, request.path_angle));
   }
   fly_stages(request, r);
   if (!request.opening.empty()) fly_record(resolved, request, r);

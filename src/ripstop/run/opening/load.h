@@ -114,6 +114,8 @@ struct LoadResult {
   std::optional<Margins> margins;       // the same, and of tape or hem under the design load
   double peak_load = 0, peak_time = 0;  // of the trajectory [N], [s]
   std::optional<double> record_peak_load;  // of the trajectory with a computed opening's drag area [N]
+  std::string
+      record_limit;  // why it does not replace a larger design load; empty: it does; not in result.json
   std::optional<SnatchResult> snatch;
   double steady_speed = 0, steady_time = 0, steady_drop = 0;  // where the descent is steady [m/s], [s], [m]
   bool steady_reached = false;

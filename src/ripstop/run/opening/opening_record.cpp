@@ -11,6 +11,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/output/csv.h"
+#include "ripstop/run/opening/handbook.h"
 #include "ripstop/run/run_folder.h"
 #include "ripstop/run/steady/steady_folder.h"
 
@@ -77,10 +78,21 @@ nlohmann::json opening_result(const fs::path& folder, const Settings& resolved) 
   return result;
 }
 
+/// A uniform pressure does not contain the air that limits the load, and a canopy that has not filled has not had its
+/// peak.
+std::string limit_of(const Settings& run, const nlohmann::json& result) {
+  if (run.inflation().air != AirModel::coupled)
+    return "uniform-pressure inflation: " + limit_of_damping(run.inflation());
+  const auto filled = result.find("filled");
+  return filled != result.end() && filled->is_boolean() && filled->get<bool>()
+             ? ""
+             : "the run does not contain the filling of a folded canopy, hence it may lack the peak";
+}
+
 }  // namespace
 
 OpeningRecord opening_record(const fs::path& folder, const Settings& resolved) {
-  opening_result(folder, resolved);
+  const nlohmann::json result = opening_result(folder, resolved);
   const Settings run = settings_of_run(folder);
   if (!run.inflation().reefing.empty())
     throw Error(ExitCode::usage,
@@ -88,6 +100,7 @@ OpeningRecord opening_record(const fs::path& folder, const Settings& resolved) {
                             "function of distance; use an opening without reefing",
                             folder.string()));
   OpeningRecord record;
+  record.limit = limit_of(run, result);
   const fs::path smooth = folder / "history_low_pass.csv";
   const CsvTable table = read_csv(fs::exists(smooth) ? smooth : folder / "history.csv");
   const std::vector<double> time = table.column("time_s");

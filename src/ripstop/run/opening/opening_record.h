@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "ripstop/case/settings.h"
@@ -13,6 +14,7 @@ namespace ripstop::inline run {
 struct OpeningRecord {
   std::vector<double> distance, drag_area;  // rising [m], [m2]
   double steady_drag_area = 0;              // of its end [m2]
+  std::string limit;  // why its load does not replace a larger one in a design; empty: it may
 };
 
 /// Load over dynamic pressure of the finished `ripstop inflate` in a folder, low-passed where the run was. Throws

@@ -168,7 +168,8 @@ bool choose_materials(const std::vector<Line>& lines, SizeResult& r, double& lea
   }
   TapeMaterial tape = tape_for(r.given, r.line_load_factor * r.largest_load / design.lines.count);
   design.tape.material = tape.name;
-  r.tape_material = std::move(tape.name), r.tape_source = std::move(tape.from), r.tape_used = tape.used;
+  r.tape_material = std::move(tape.name), r.tape_used = tape.used;
+  r.tape_source = std::move(tape.from) + " under the largest load";
   return before.lines.material != design.lines.material || before.riser.material != design.riser.material ||
          before.tape.material != design.tape.material;
 }
