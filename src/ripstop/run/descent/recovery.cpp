@@ -221,22 +221,20 @@ EndLoads loads_at(DragEnd end, const RecoveryCanopy& canopy, std::size_t i, cons
   return loads;
 }
 
-/// A landing before the descent is steady in one of the flights. Nothing for a canopy that is not filled, of which
-/// another warning informs.
+/// A landing before the descent is steady in one of the flights. Nothing for a canopy that is not filled: that has
+/// another warning.
 std::vector<std::string> landing_warnings(const std::string& name, const std::vector<Flown>& flights) {
   const FlownStage& stage = flights[0].stages.back();
   const bool steady = std::all_of(flights.begin(), flights.end(),
                                   [](const Flown& flown) { return flown.stages.back().steady; });
   if (steady || !stage.filled) return {};
-  return {
-      fmt::format("{}: it opens too low for a steady descent: it lands {} s after line stretch at {} m/s. A "
-                  "steady descent "
-                  "begins after {} s ({:g} filling times, for a slow filling) and within {:g} % of {} m/s. "
-                  "Landing speed and "
-                  "energy are not reliable; open it higher",
-                  name, rounded(stage.duration, 3), rounded(stage.end_speed, 3),
-                  rounded(steady_fillings * stage.load.stages.front().filling_time, 3), steady_fillings,
-                  100 * steady_share, rounded(stage.terminal, 3))};
+  return {fmt::format(
+      "{}: it opens too low for a steady descent: it lands {} s after line stretch at {} m/s. A "
+      "steady descent begins after {} s ({:g} filling times, for a slow filling) and within {:g} % "
+      "of {} m/s. Landing speed and energy are not reliable; open it higher",
+      name, rounded(stage.duration, 3), rounded(stage.end_speed, 3),
+      rounded(steady_fillings * stage.load.stages.front().filling_time, 3), steady_fillings,
+      100 * steady_share, rounded(stage.terminal, 3))};
 }
 
 /// Hardware carries the separation load where it exceeds the others.
