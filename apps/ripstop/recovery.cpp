@@ -39,7 +39,7 @@ std::string range_text(const Ranged& r, const char* unit) {
                      unit);
 }
 
-void print_stage(const RecoveryStage& s) {
+void print_stage(const RecoveryStage& s, bool wind) {
   print_text("\n{}: {}\n", s.name, s.title);
   print_row("drag", fmt::format("C_D {:.3f} ({}) on S0 = {:.4g} m2, drag area {:.4g} m2: {}",
                                 s.drag_coefficient, s.drag_basis, s.reference_area,
@@ -74,7 +74,7 @@ void print_stage(const RecoveryStage& s) {
   print_row("fastest safe deployment", safe_speed_text(s.safe));
   print_row("descent rate at the end", range_text(s.descent_rate, "m/s"));
   print_row("duration", range_text(s.duration, "s"));
-  print_row("drift", range_text(s.drift, "m"));
+  if (wind) print_row("drift", range_text(s.drift, "m"));
   print_row("packed", fmt::format("{}; mass {:.3g} kg", packed_text(s.mass, s.packed_volume), s.mass));
   if (s.bay_length)
     print_row("length in the bay",
@@ -93,7 +93,7 @@ std::string wind_text(const RecoveryResult& r) {
 void print_result(const RecoveryResult& r, const fs::path& folder) {
   print_text("{}\n  {:.4g} kg and parachutes {:.3g} kg, apogee {:.5g} m above the ground at {:.4g} m\n",
              r.title, r.mass, r.total_mass - r.mass, r.apogee, r.ground);
-  for (const RecoveryStage& stage : r.stages) print_stage(stage);
+  for (const RecoveryStage& stage : r.stages) print_stage(stage, r.wind.speed_m_s > 0);
   print_text("\nlanding\n");
   print_row("rate of descent", range_text(r.landing_speed, "m/s"));
   print_row("kinetic energy", range_text(r.energy, "J"));

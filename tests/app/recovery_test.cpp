@@ -65,6 +65,7 @@ TEST(RecoveryCommand, StatesTheReplacedMassTheLoosePackingAndTheSeparation) {
   for (const char* text : {"--mass of 22 kg replaces payload.mass_kg = 20 kg of the case",
                            "litres if packed loosely at 250 kg/m3", "F = sqrt(2 E k / L)"})
     EXPECT_NE(run.output.find(text), std::string::npos) << text << "\n" << run.output;
+  EXPECT_EQ(run.output.find("drift"), std::string::npos) << run.output;  // no wind is given
   EXPECT_TRUE(std::regex_search(run.output, std::regex("length in the bay +[0-9.]+ m at that density, ")))
       << run.output;
 }
