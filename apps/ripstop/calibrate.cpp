@@ -45,7 +45,7 @@ int calibrate(const CalibrateArguments& options) {
   const InflationProblem problem = opening_problem(resolved, source, threads_of(options.opening, resolved));
   const fs::path folder =
       options.out.empty() ? default_run_folder(options.opening.case_file, "damping") : options.out;
-  make_results_folder(folder);
+  make_results_folder(folder, "calibrate");
   Progress progress;
   progress.line(fmt::format(
       "{}: measured peak {:.1f} N{}; pressure {:.2f} Pa ({}), {} nodes", resolved.title(), target.peak,

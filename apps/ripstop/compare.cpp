@@ -87,7 +87,7 @@ int compare_finished(const CompareArguments& options) {
   const RunComparison result = compare_runs(runs);
   const fs::path& folder = options.settings.folder;
   if (!folder.empty()) {
-    make_results_folder(folder);
+    make_results_folder(folder, "compare");
     write_file(folder / "result.json", to_json(result));
     write_report(runs, folder / report_name);
   }

@@ -102,7 +102,7 @@ int pull(const CouponArguments& options, const Fabric& fabric, ThreadTeam& team)
 
 int run(const CouponArguments& options) {
   const Fabric fabric = fabric_of(options.material);
-  if (!options.out.empty()) make_results_folder(options.out);
+  if (!options.out.empty()) make_results_folder(options.out, "coupon");
   ThreadTeam team(options.threads);
   return options.bench.empty() ? pull(options, fabric, team) : compare(options, fabric, team);
 }

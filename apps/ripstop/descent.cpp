@@ -52,7 +52,7 @@ void print_result(const Descent& d) {
 }
 
 int descent(const DescentArguments& options) {
-  if (!options.out.empty()) make_results_folder(options.out);
+  if (!options.out.empty()) make_results_folder(options.out, "descent");
   const Descent result =
       run_descent(carrying_run(options.run), options.mass, options.heights, options.ground);
   if (!options.out.empty()) write_file(options.out / "result.json", to_json(result));

@@ -66,7 +66,7 @@ int export_run(const ExportArguments& options) {
   for (const std::string& text : options.reefing)
     recovery.stages.back().reefing.push_back(parse_reefed_stage(text));
   const std::string text = text_of(options.format, recovery);
-  for (const ExportedStage& stage : recovery.stages) print_warnings(stage.parachute.warnings);
+  print_warnings(warnings_of(recovery));
   if (options.out.empty()) {
     fmt::print("{}", text);
     return 0;

@@ -55,7 +55,7 @@ void print_result(const FabricResult& r, const fs::path& folder) {
 
 int run(const FabricArguments& options) {
   const Settings resolved = read_settings(options.case_file, options.overrides);
-  if (!options.out.empty()) make_results_folder(options.out);
+  if (!options.out.empty()) make_results_folder(options.out, "fabric");
   Progress progress;
   const FabricSolution solution = run_fabric(resolved, options.pressure, [&](const RelaxProgress& p) {
     progress.show(fmt::format("cloth: step {}, residual {:.1e} (tolerance {:.0e})", p.steps, p.residual,

@@ -94,7 +94,7 @@ int run(const FitArguments& options) {
   if (!options.decimal.empty()) bench.decimal = table::parse_decimal(options.decimal);
   table::parse_columns(bench.columns);  // a wrong one ends here, before any record is read
   const fs::path folder = options.out.empty() ? fs::path("runs") / bench.name : options.out;
-  make_results_folder(folder);
+  make_results_folder(folder, "fit");
   ThreadTeam team(options.threads);
   Progress progress;
   const FitResult result =

@@ -108,8 +108,8 @@ void print_stages(const InflationResult& r) {
   if (!r.margins) return;
   for (const Margin& m : r.margins->members)
     if (m.member.starts_with("reefing") && m.margin)
-      print_text("  {:<26} margin of safety {:+.2f}: {:.0f} N of {:.0f} N ({})\n", m.member, *m.margin,
-                 m.load, *m.strength, m.strength_from);
+      print_text("  {:<26} margin of safety {}: {:.0f} N of {:.0f} N ({})\n", m.member,
+                 margin_text(*m.margin), m.load, *m.strength, m.strength_from);
 }
 
 void print_peaks(const InflationResult& r) {

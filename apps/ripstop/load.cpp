@@ -156,6 +156,7 @@ void print_result(const LoadResult& r, const fs::path& folder) {
   else
     print_text("steady descent is NOT reached above the ground: {:.3g} m/s at impact after {:.2f} s\n",
                r.steady_speed, r.steady_time);
+  print_separation();
   print_text("{} (force.png, speed.png, trajectory.csv, result.json)\n", folder.string());
 }
 
@@ -171,7 +172,10 @@ int load(LoadArguments& options) {
   if (options.fastest) {
     const FastestResult fastest = run_fastest(resolved, request, options.margin);
     write_fastest(options.out, fastest);
-    return show(fastest, options.json, [&] { print_fastest(fastest, options.out); });
+    return show(fastest, options.json, [&] {
+      print_fastest(fastest, options.out);
+      print_replaced_mass(options.mass, resolved);
+    });
   }
   if (!options.speed)
     throw Error(ExitCode::usage,
@@ -179,7 +183,10 @@ int load(LoadArguments& options) {
   request.speed = *options.speed;
   const LoadResult result = run_load(resolved, request);
   write_load(options.out, result);
-  return show(result, options.json, [&] { print_result(result, options.out); });
+  return show(result, options.json, [&] {
+    print_result(result, options.out);
+    print_replaced_mass(options.mass, resolved);
+  });
 }
 
 void add_coefficients(CLI::App& command, LoadRequest& r) {

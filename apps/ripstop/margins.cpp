@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ripstop/core/words.h"
+#include "ripstop/parachute/cut.h"
 #include "units_option.h"
 
 namespace ripstop::cli {
@@ -40,13 +41,13 @@ void print_margins(const std::optional<Margins>& margins, std::optional<double> 
   print_row("utilisation", text + (largest ? "; under the design load (under the largest load)" : ""));
   if (!margins->weakest.empty()) {
     const Margin& m = *weakest(*margins);
-    print_row(
-        "weakest member",
-        fmt::format("{}: {} {} {} times safety factor {:.3g}, allowable load {} {} ({:.0f} % of the "
-                    "strength); margin of safety {:+.2f}{}",
-                    m.member, m.load_from.value_or("load"), rounded(m.load), m.unit,
-                    *m.used * *m.strength * m.knock_down / m.load, rounded(*m.strength * m.knock_down),
-                    m.unit, 100 * m.knock_down, *m.margin, *m.margin < 0 ? ": ALLOWABLE LOAD EXCEEDED" : ""));
+    print_row("weakest member",
+              fmt::format("{}: {} {} {} times safety factor {:.3g}, allowable load {} {} ({:.0f} % of the "
+                          "strength); margin of safety {}{}",
+                          m.member, m.load_from.value_or("load"), rounded(m.load), m.unit,
+                          *m.used * *m.strength * m.knock_down / m.load, rounded(*m.strength * m.knock_down),
+                          m.unit, 100 * m.knock_down, margin_text(*m.margin),
+                          *m.margin < 0 ? ": ALLOWABLE LOAD EXCEEDED" : ""));
   }
 }
 
@@ -55,6 +56,30 @@ std::string hardware_text(const HardwareNeed& need) {
       "each swivel, link or cord needs a rated load of {} N, or a breaking load of {} N (metal) or {} N "
       "(textile)",
       rounded(need.rated), rounded(need.metal), rounded(need.textile));
+}
+
+void print_replaced_mass(const std::optional<double>& given, const Settings& resolved) {
+  const std::optional<double>& own = resolved.payload().mass_kg;
+  if (!given || !own || *given == *own) return;
+  const auto [mass, replaced] = rounded_apart(*given, *own, 4);
+  print_text("  --mass of {} kg replaces payload.mass_kg = {} kg of the case\n", mass, replaced);
+}
+
+void print_separation() {
+  print_text(
+      "Not included: the load when the sections of the rocket separate. A shock cord of the stiffness k "
+      "(stiffness_n) and the length L (length_m) carries F = sqrt(2 E k / L). Sections m1 and m2 that part "
+      "at "
+      "v have E = m1 m2 v^2 / (2 (m1 + m2)). Use the larger of this load and of required hardware.\n");
+}
+
+std::string packed_text(double mass, double volume) {
+  std::string text =
+      fmt::format("{:.3g} litres at {:.0f} kg/m3, parachute only", 1000 * volume, mass / volume);
+  if (mass / volume > loosely_packed)
+    text += fmt::format("; {:.3g} litres if packed loosely at {:g} kg/m3", 1000 * mass / loosely_packed,
+                        loosely_packed);
+  return text;
 }
 
 std::string safe_speed_text(const SafeSpeed& s) {
@@ -70,7 +95,7 @@ std::string safe_speed_text(const SafeSpeed& s) {
 std::string weakest_text(const std::optional<Margins>& margins) {
   const Margin* m = margins ? weakest(*margins) : nullptr;
   if (!m) return "";
-  return fmt::format(", {}: margin of safety {:+.2f}{}", m->member, *m->margin,
+  return fmt::format(", {}: margin of safety {}{}", m->member, margin_text(*m->margin),
                      *m->margin < 0 ? ", ALLOWABLE LOAD EXCEEDED" : "");
 }
 

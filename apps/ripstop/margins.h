@@ -5,6 +5,7 @@
 #include <string>
 
 #include "ripstop/canopy/stress.h"
+#include "ripstop/case/settings.h"
 #include "ripstop/run/opening/fastest.h"
 #include "ripstop/run/steady/steady.h"
 
@@ -16,6 +17,12 @@ void print_payload(const SteadyResult& result);
 /// With `largest`, the ratio of the largest load to the load of the margins, the utilisation under both.
 void print_margins(const std::optional<Margins>& margins, std::optional<double> largest = {});
 /// Strength that each part of the hardware needs.
+/// A line where --mass replaces another payload.mass_kg of the case.
+void print_replaced_mass(const std::optional<double>& given, const Settings& resolved);
+/// The load of a shock cord that no opening load contains, with its formula.
+void print_separation();
+/// Volume of the packed parachute alone, and at the density of a loose packing.
+std::string packed_text(double mass, double volume);
 std::string hardware_text(const HardwareNeed& need);
 /// "12.3 m/s, range 11 to 14 m/s, line reaches its allowable load", or that there is none.
 std::string safe_speed_text(const SafeSpeed& safe);

@@ -12,6 +12,7 @@
 #include "case_options.h"
 #include "commands.h"
 #include "json_option.h"
+#include "margins.h"
 #include "number_option.h"
 #include "option.h"
 
@@ -74,8 +75,7 @@ int run(const PatternArguments& options) {
   }
   print_bill(result.bill);
   print_lengths(result);
-  fmt::print("packed volume at {:.0f} kg/m3: {:.3f} litres\n", result.packing_density,
-             1000 * result.bill.packed_volume);
+  fmt::print("packed volume: {}\n", packed_text(result.bill.mass, result.bill.packed_volume));
   fmt::print("S0 {:.4f} m2, cloth {:.4f} m2 finished\n", result.nominal_area, result.cloth_area);
   fmt::print("outlines: {} as DXF (in {}), SVG{}, bill.csv and result.json in {}\n",
              result.pattern.pieces.size(), files.unit == DxfUnit::inches ? "inches" : "millimetres",
@@ -100,7 +100,7 @@ void add_pattern(CLI::App& app, int& status) {
   length("--line-loop", options->allowances.line_loop, "Extra length of line at each end for its loop [m]");
   length("--tape-overlap", options->allowances.tape_overlap, "Extra length of each tape [m]");
   add_number(*command, "--packing-density", options->packing_density, packing_density_range,
-             "Density of the packed parachute, about 400 by hand, 600 with a press [kg/m3]");
+             "Density of the packed parachute, 250 (loose) to 400 by hand, 600 with a press [kg/m3]");
   add_choice(*command, "--units", options->units, {"mm", "in"}, "Unit of the DXF files");
   add_choice(*command, "--paper", options->paper, {"a4", "letter"},
              "Also as PDF at true size on sheets of this paper, with registration marks");

@@ -3,6 +3,7 @@
 #include "ripstop/run/descent/recovery.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -38,7 +39,7 @@ std::string range_text(const Ranged& r, const char* unit) {
                      unit);
 }
 
-void print_stage(const RecoveryStage& s) {
+void print_stage(const RecoveryStage& s, bool wind) {
   print_text("\n{}: {}\n", s.name, s.title);
   print_row("drag", fmt::format("C_D {:.3f} ({}) on S0 = {:.4g} m2, drag area {:.4g} m2: {}",
                                 s.drag_coefficient, s.drag_basis, s.reference_area,
@@ -61,9 +62,13 @@ void print_stage(const RecoveryStage& s) {
   if (s.snatch_load)
     print_row("snatch load", fmt::format("{} N by [deployment] of its case, at the highest airspeed",
                                          rounded(*s.snatch_load)));
+  if (s.separation_load)
+    print_row("separation load", fmt::format("{} N on the shock cord: energy of two sections that part",
+                                             rounded(*s.separation_load)));
   print_row("margins and hardware",
             fmt::format("under {} N, the upper end of the design load{}", rounded(s.largest_design_load),
-                        s.hardware.rated > s.largest_design_load
+                        s.separation_load == s.hardware.rated ? "; of hardware under the separation load"
+                        : s.hardware.rated > s.largest_design_load
                             ? "; of lines, riser and hardware under the snatch load"
                             : ""));
   print_margins(s.margins);
@@ -71,10 +76,12 @@ void print_stage(const RecoveryStage& s) {
   print_row("fastest safe deployment", safe_speed_text(s.safe) + " with the same uncertainty");
   print_row("descent rate at the end", range_text(s.descent_rate, "m/s"));
   print_row("duration", range_text(s.duration, "s"));
-  print_row("drift", range_text(s.drift, "m"));
-  print_row("packed",
-            fmt::format("{:.3g} litres, mass {:.3g} kg{}", 1000 * s.packed_volume, s.mass,
-                        s.bay_length ? fmt::format(", length in the bay {:.3g} m", *s.bay_length) : ""));
+  if (wind) print_row("drift", range_text(s.drift, "m"));
+  print_row("packed", fmt::format("{}; mass {:.3g} kg", packed_text(s.mass, s.packed_volume), s.mass));
+  if (s.bay_length)
+    print_row("length in the bay",
+              fmt::format("{:.3g} m at that density, {:.3g} m packed loosely", *s.bay_length,
+                          *s.bay_length * std::max(1.0, s.mass / (loosely_packed * s.packed_volume))));
 }
 
 std::string wind_text(const RecoveryResult& r) {
@@ -88,7 +95,7 @@ std::string wind_text(const RecoveryResult& r) {
 void print_result(const RecoveryResult& r, const fs::path& folder) {
   print_text("{}\n  {:.4g} kg and parachutes {:.3g} kg, apogee {:.5g} m above the ground at {:.4g} m\n",
              r.title, r.mass, r.total_mass - r.mass, r.apogee, r.ground);
-  for (const RecoveryStage& stage : r.stages) print_stage(stage);
+  for (const RecoveryStage& stage : r.stages) print_stage(stage, r.wind.speed_m_s > 0);
   print_text("\nlanding\n");
   print_row("rate of descent", range_text(r.landing_speed, "m/s"));
   print_row("kinetic energy", range_text(r.energy, "J"));
@@ -98,6 +105,9 @@ void print_result(const RecoveryResult& r, const fs::path& folder) {
   print_row("wind", wind_text(r));
   if (r.wind.speed_m_s > 0) print_row("drift with the wind", range_text(r.drift, "m"));
   print_row("path in still air", fmt::format("{} m along the flight direction at apogee", rounded(r.range)));
+  if (std::none_of(r.stages.begin(), r.stages.end(),
+                   [](const RecoveryStage& s) { return s.separation_load.has_value(); }))
+    print_separation();
   print_text(
       "Ranges: with the smallest and the largest drag coefficients of all parachutes in descent; those of "
       "loads also with the scatter of openings.\n"
@@ -119,7 +129,10 @@ int recovery(RecoveryArguments& options) {
   options.request.mass = options.mass ? *options.mass : *main.payload().mass_kg;
   const RecoveryResult result = run_recovery(main, drogue, options.request);
   write_recovery(options.out, result);
-  return show(result, options.json, [&] { print_result(result, options.out); });
+  return show(result, options.json, [&] {
+    print_result(result, options.out);
+    print_replaced_mass(options.mass, main);
+  });
 }
 
 void add_flight(CLI::App& command, CLI::Option* drogue, RecoveryArguments& options) {
@@ -173,10 +186,13 @@ void add_recovery(CLI::App& app, int& status) {
       ->needs(drogue);
   add_numbers(*command, "--section", r.sections, above(0).up_to(1e6),
               "Masses of sections of the rocket, for the kinetic energy of each at landing [kg]");
+  add_number(*command, "--separation-speed", r.separation_speed, above(0).up_to(1000),
+             "Speed at which two sections part, for the load on the shock cord in [hardware]; with --section "
+             "in order along the rocket [m/s]");
   add_number(*command, "--bay-diameter", r.bay_diameter, above(0).up_to(10),
              "Inner diameter of the parachute bay, for the length that the packed parachute needs [m]");
   add_number(*command, "--packing-density", r.packing_density, packing_density_range,
-             "Packing density, about 400 by hand, 600 with a press [kg/m3]");
+             "Packing density, 250 (loose) to 400 by hand, 600 with a press [kg/m3]");
   add_set_option(*command, options->overrides);
   command->add_option("--out", options->out, "Folder");
   add_units_option(*command);

@@ -67,14 +67,13 @@ void print_result(const SizeResult& r, const fs::path& file, const fs::path& pag
   row("tape", fmt::format("{}: {}", r.tape_material, r.tape_source));
   row("mass", fmt::format("{:.3g} kg: cloth {:.3g}, tape {:.3g}, lines {:.3g}", r.parachute_mass,
                           r.cloth_mass, r.tape_mass, r.line_mass));
-  row("packed volume", fmt::format("{:.3g} litres", 1000 * r.packed_volume));
+  row("packed volume", packed_text(r.parachute_mass, r.packed_volume));
   row("DESIGN LOAD", fmt::format("{:.0f} N at {:.3g} m/s: {}; largest line load {:.2f} times the mean",
                                  r.design_load, r.deployment_speed, r.design_load_from, r.line_load_factor));
   if (r.smallest_margin)
-    row("largest load",
-        fmt::format("{:.0f} N with the uncertainty of {:.0f} % ({}): margin of safety {:+.2f}, {}",
-                    r.largest_load, 100 * r.load_uncertainty, r.load_uncertainty_from, *r.smallest_margin,
-                    r.smallest_margin_member));
+    row("largest load", fmt::format("{:.0f} N with the uncertainty of {:.0f} % ({}): margin of safety {}, {}",
+                                    r.largest_load, 100 * r.load_uncertainty, r.load_uncertainty_from,
+                                    margin_text(*r.smallest_margin), r.smallest_margin_member));
   row("applicable methods",
       fmt::format("opening load {:.0f} to {:.0f} N (ripstop load)", r.opening_load_low, r.opening_load));
   if (!r.opening.front().caution.empty()) row("", r.opening.front().caution);
@@ -214,7 +213,7 @@ void add_size(CLI::App& app, int& status) {
   command->add_option("--line-material", r.line_material, "Line material of the library")
       ->default_str("the lightest with sufficient strength");
   add_number(*command, "--packing-density", r.packing_density, from(50).up_to(1500),
-             "Density of the packed parachute, about 400 by hand, 600 with a press [kg/m3]");
+             "Density of the packed parachute, 250 (loose) to 400 by hand, 600 with a press [kg/m3]");
   command->add_flag("--verify", options->verify,
                     "Run the case and adjust the diameter until the descent rate is met within 1 %");
   command->add_flag("--fly", options->fly,

@@ -88,8 +88,8 @@ void print_failure(const ClusterResult& cluster) {
   const Margin* least = weakest(cluster.one_failed);
   print_row("one canopy failed",
             fmt::format("{} times the load of each of the others{}", rounded(count / (count - 1)),
-                        least ? fmt::format("; weakest member {}: margin of safety {:+.2f}", least->member,
-                                            *least->margin)
+                        least ? fmt::format("; weakest member {}: margin of safety {}", least->member,
+                                            margin_text(*least->margin))
                               : std::string()));
 }
 

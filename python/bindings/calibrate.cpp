@@ -18,7 +18,7 @@ DampingResult calibrate(const PyCase& given, const OptionalSource& steady, std::
   const py::gil_scoped_release release;
   const Opening opening = opening_of(given.given, steady, pressure, threads);
   damping_target(opening.resolved);
-  if (out) make_results_folder(*out);
+  if (out) make_results_folder(*out, "calibrate");
   const auto alive = [&] { listener.listen(); };
   DampingResult result = run_damping(
       opening.resolved, opening.source,

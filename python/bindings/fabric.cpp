@@ -25,7 +25,7 @@ std::unique_ptr<PyFabric> fabric(const PyCase& given, std::optional<double> pres
   Listener listener(py::none{});
   const std::shared_ptr<const CanopyMesh> own = own_mesh(mesh, false);
   const py::gil_scoped_release release;
-  if (out) make_results_folder(*out);
+  if (out) make_results_folder(*out, "fabric");
   auto made = std::make_unique<PyFabric>();
   made->made = given;
   made->solution = run_fabric(

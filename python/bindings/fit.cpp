@@ -72,7 +72,7 @@ FitResult fit(const Path& file, bool coupons, int degree, bool zero_offset, cons
   if (!columns.empty()) bench.columns = columns;
   if (!decimal.empty()) bench.decimal = table::parse_decimal(decimal);
   table::parse_columns(bench.columns);  // a wrong one ends here, before any record is read
-  if (out) make_results_folder(*out);
+  if (out) make_results_folder(*out, "fit");
   ThreadTeam team(threads);
   FitResult result = run_fit(bench, coupons, team, [&](int pulls, double xi, double eps, double misfit) {
     listener.tell(FitProgress{pulls, xi, eps, misfit});

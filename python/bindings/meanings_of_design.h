@@ -121,7 +121,8 @@ RecoveryStage.lowest_design_load_n: design load at the lowest airspeed less its 
 RecoveryStage.highest_design_load_n: design load at the highest airspeed plus its uncertainty
 RecoveryStage.load_uncertainty: relative uncertainty of the load at one speed: range of the drag coefficient and scatter
 RecoveryStage.snatch_load_n: snatch load by [deployment] of its case, at the highest airspeed; None: without [deployment]
-RecoveryStage.margins: margins under the largest design load; of all but tape or hem under a larger snatch load
+RecoveryStage.separation_load_n: load on the stretching hardware of its case when two sections part; None: not asked for, or no such hardware
+RecoveryStage.margins: margins under the largest design load; of all but tape or hem under a larger snatch load, of hardware under a larger separation load
 RecoveryStage.required_hardware: strength that each part of the hardware needs under the same load
 RecoveryStage.fastest_safe_deployment: fastest safe deployment by the method of the design load
 RecoveryStage.descent_rate_m_s: rate of descent at the end of the stage

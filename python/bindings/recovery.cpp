@@ -66,13 +66,13 @@ void add_recovery(py::module_& module) {
       [](const PyCase& main, const std::optional<PyCase>& drogue, double mass, double apogee,
          double main_height, double speed, double delay, double ground, std::optional<double> body_drag_area,
          bool drogue_released, const std::optional<Path>& steady, const std::optional<Path>& drogue_steady,
-         const std::vector<double>& sections, std::optional<double> bay_diameter,
-         const std::optional<Path>& out) {
+         const std::vector<double>& sections, std::optional<double> separation_speed,
+         std::optional<double> bay_diameter, const std::optional<Path>& out) {
         const py::gil_scoped_release release;
         RecoveryRequest r;
         r.mass = mass, r.apogee = apogee, r.main_height = main_height, r.speed = speed, r.delay = delay;
         r.ground = ground, r.body_drag_area = body_drag_area, r.drogue_released = drogue_released;
-        r.sections = sections, r.bay_diameter = bay_diameter;
+        r.sections = sections, r.separation_speed = separation_speed, r.bay_diameter = bay_diameter;
         if (steady) r.main_steady = *steady;
         if (drogue_steady) r.drogue_steady = *drogue_steady;
         RecoveryResult result =
@@ -85,7 +85,8 @@ void add_recovery(py::module_& module) {
       py::arg("ground_m") = 0.0, py::arg("body_drag_area_m2") = py::none(),
       py::arg("drogue_released") = false, py::arg("steady") = py::none(),
       py::arg("drogue_steady") = py::none(), py::arg("sections_kg") = std::vector<double>(),
-      py::arg("bay_diameter_m") = py::none(), py::arg("out") = py::none(),
+      py::arg("separation_speed_m_s") = py::none(), py::arg("bay_diameter_m") = py::none(),
+      py::arg("out") = py::none(),
       "Computes the recovery of a rocket under drogue and main, from apogee to the ground: ripstop "
       "recovery.\n\n"
       "main, drogue: cases. Without a drogue (None) the main opens at apogee.\n"
@@ -93,6 +94,8 @@ void add_recovery(py::module_& module) {
       "speed_m_s: horizontal airspeed at apogee. delay_s: time from there to the first opening.\n"
       "steady, drogue_steady: run folders with the drag areas.\n"
       "sections_kg: masses of the sections of the rocket, for their kinetic energy at landing.\n"
+      "separation_speed_m_s: speed at which two sections part, for the load on the shock cord in "
+      "[hardware].\n"
       "out: folder for the files of the result. None: no files. Wind: [flight.wind] of the main's case.");
 }
 

@@ -46,6 +46,30 @@ TEST(RecoveryCommand, StatesRangesHardwareAndWind) {
     EXPECT_NE(page.find(text), std::string::npos) << text;
 }
 
+TEST(RecoveryCommand, RefusesTheFolderOfAnotherCommand) {
+  const TemporaryFolder folder("recovery");
+  const std::string out = (folder.path / "out").string();
+  ASSERT_EQ(ripstop_with({"pattern", examples + "flat-circular/case.toml", "--out", out}).code, 0);
+  const std::string before = read_file(folder.path / "out/result.json");
+  const Finished run = ripstop_with(recovery(folder, {"--mass", "22"}));
+  EXPECT_EQ(run.code, 2);
+  EXPECT_NE(run.output.find("contains results of ripstop pattern"), std::string::npos) << run.output;
+  EXPECT_EQ(read_file(folder.path / "out/result.json"), before);
+}
+
+TEST(RecoveryCommand, StatesTheReplacedMassTheLoosePackingAndTheSeparation) {
+  const TemporaryFolder folder("recovery");
+  const Finished run = ripstop_with(
+      recovery(folder, {"--mass", "22", "--set", "payload.mass_kg=20", "--bay-diameter", "0.15"}));
+  EXPECT_EQ(run.code, 0) << run.output;
+  for (const char* text : {"--mass of 22 kg replaces payload.mass_kg = 20 kg of the case",
+                           "litres if packed loosely at 250 kg/m3", "F = sqrt(2 E k / L)"})
+    EXPECT_NE(run.output.find(text), std::string::npos) << text << "\n" << run.output;
+  EXPECT_EQ(run.output.find("drift"), std::string::npos) << run.output;  // no wind is given
+  EXPECT_TRUE(std::regex_search(run.output, std::regex("length in the bay +[0-9.]+ m at that density, ")))
+      << run.output;
+}
+
 TEST(RecoveryCommand, RefusesAUnitOfAnotherQuantityAndAnUnknownChoiceOfUnits) {
   const TemporaryFolder folder("recovery");
   const Finished wrong = ripstop_with(recovery(folder, {"--mass", "48.5 ft"}));

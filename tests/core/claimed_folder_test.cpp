@@ -12,6 +12,7 @@
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
+#include "tests/refusal.h"
 
 namespace ripstop {
 namespace {
@@ -76,13 +77,22 @@ TEST_F(ClaimedFolderTest, ResultsOfOtherCommandsDoNotReplaceThoseOfARun) {
     write_file(claimed.own("result.json"), "{}");
     claimed.seal();
   }
-  EXPECT_THROW(make_results_folder(folder), Error);
+  EXPECT_THROW(make_results_folder(folder, "load"), Error);
   EXPECT_EQ(read_file(folder / "result.json"), "{}");
-  make_results_folder(root.path / "new/results");
-  make_results_folder(root.path / "new/results");
-  EXPECT_TRUE(fs::is_empty(root.path / "new/results"));
   write_file(root.path / "file", "");
-  EXPECT_THROW(make_results_folder(root.path / "file"), Error);
+  EXPECT_THROW(make_results_folder(root.path / "file", "load"), Error);
+}
+
+TEST_F(ClaimedFolderTest, ResultsOfACommandAreReplacedByTheSameCommandOnly) {
+  const fs::path results = root.path / "new/results";
+  make_results_folder(results, "pattern");
+  make_results_folder(results, "load");  // nothing was written
+  write_file(results / "result.json", "{}");
+  make_results_folder(results, "load");
+  EXPECT_NE(refusal_of([&] { make_results_folder(results, "recovery"); }, ExitCode::usage)
+                .find("results of ripstop load"),
+            std::string::npos);
+  EXPECT_EQ(read_file(results / "result.json"), "{}");
 }
 
 TEST_F(ClaimedFolderTest, WhoLooksWhetherItIsClaimedDoesNotClaimIt) {

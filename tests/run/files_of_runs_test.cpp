@@ -40,7 +40,7 @@ TEST(PatternFiles, AreOneDrawingOfEveryPieceTheBillAndTheResult) {
   const TemporaryFolder root("pattern-files");
   const fs::path folder = root.path / "new/pattern";
   write_pattern(folder, result);
-  std::set<std::string> files, wanted = {"bill.csv", "result.json"};
+  std::set<std::string> files, wanted = {".ripstop-command", "bill.csv", "result.json"};
   for (const auto& entry : fs::directory_iterator(folder)) files.insert(entry.path().filename());
   bool blank = false;
   for (const Piece& piece : result.pattern.pieces) {

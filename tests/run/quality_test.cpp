@@ -116,6 +116,11 @@ TEST(MarginWarnings, NameEveryKindOfMemberBelowZeroOnce) {
   EXPECT_NE(told[1].find("6.5 times the allowable 100 N (margin of safety -0.85)"), std::string::npos)
       << told[1];
   EXPECT_TRUE(margin_warnings(std::nullopt).empty());
+  margins.members = {member("riser", 1.0003)};
+  EXPECT_NE(
+      margin_warnings(margins)[0].find("is 1.0003 times the allowable 100 N (margin of safety -0.0003)"),
+      std::string::npos)
+      << margin_warnings(margins)[0];
 }
 
 }  // namespace

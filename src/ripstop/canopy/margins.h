@@ -21,7 +21,8 @@ struct MarginFactors {
 /// [hardware.NAME]: a part in the chain from the riser to the payload, such as a swivel, a link, a harness or a shock
 /// cord. It carries the whole load of the riser.
 struct Hardware {
-  enum class Kind { metal, textile } kind = Kind::metal;
+  enum class Kind { metal, textile };
+  std::optional<Kind> kind;                             // absent: metal; a part that stretches needs it
   std::optional<double> breaking_load_n, rated_load_n;  // of one strand; one of them is given
   int strands = 1;                                      // that share the load equally
   std::optional<double> length_m, stiffness_n;          // of one strand; stiffness: tension over strain

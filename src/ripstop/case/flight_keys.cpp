@@ -82,9 +82,10 @@ void describe(Fields& fields, MarginFactors& m) {
   fields.number("seam_efficiency", m.seam_efficiency, above(0).up_to(1),
                 "Strength of a seam over that of cloth and tape (0.8: Knacke, NWC TP 6575, not checked "
                 "against the print; use values of your own seam tests if available).");
-  fields.number("line_joint_efficiency", m.line_joint_efficiency, above(0).up_to(1),
-                "Strength of loops, knots and stitches over that of lines and riser (0.8: Knacke, NWC TP "
-                "6575, not checked against the print).");
+  fields.number(
+      "line_joint_efficiency", m.line_joint_efficiency, above(0).up_to(1),
+      "Strength of sewn loops and splices over that of lines and riser (0.8: Knacke, NWC TP 6575, not "
+      "checked against the print). A knot leaves about 0.5 (assumed; measure it).");
   fields.number("abrasion", m.abrasion, above(0).up_to(1),
                 "Strength after abrasion over new strength (0.95: Knacke, NWC TP 6575, not checked against "
                 "the print).");
@@ -99,9 +100,11 @@ void describe(Fields& fields, MarginFactors& m) {
 }
 
 void describe(Fields& fields, Hardware& part) {
-  fields.choice("kind", part.kind, {{"metal", Hardware::Kind::metal}, {"textile", Hardware::Kind::textile}},
-                "\"textile\": the reduction factors of [margins] for a line apply to its breaking load. "
-                "\"metal\": only the safety factor applies.");
+  fields
+      .choice("kind", part.kind, {{"metal", Hardware::Kind::metal}, {"textile", Hardware::Kind::textile}},
+              "\"textile\": the reduction factors of [margins] for a line apply to its breaking load. "
+              "\"metal\": only the safety factor applies. Required with length_m or stiffness_n.")
+      .absent("metal");
   fields
       .number("breaking_load_n", part.breaking_load_n, above(0).up_to(1e8),
               "Load at which one strand breaks. Give this or rated_load_n.")

@@ -411,6 +411,11 @@ void check_hardware(const Case& given, Findings& findings) {
       findings.add(
           table, "", "",
           "has one of length_m and stiffness_n: give both for its stretch in the snatch, or neither");
+    // A cord without its kind would be metal, without the factors of a line.
+    if (!part.kind && (part.length_m || part.stiffness_n))
+      findings.add(
+          table, "", "",
+          "stretches, and its material is missing: give kind = \"textile\" (cord, webbing) or \"metal\"");
   }
 }
 

@@ -21,6 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* records = ".ripstop";
+constexpr const char* results_of = ".ripstop-command";  // the command that wrote the results
 constexpr const char* released = "released";  // instead of the hash of a file that will be written again
 
 fs::path lock_of(const fs::path& folder) {
@@ -196,17 +197,21 @@ ClaimedFolder::ClaimedFolder(fs::path folder, LockCall lock) : folder_(std::move
   drop_leftovers();
 }
 
-void make_results_folder(const fs::path& folder) {
+void make_results_folder(const fs::path& folder, const std::string& command) {
   const std::vector<std::string> files = listed(folder);
   if (!files.empty())
     throw Error(
         ExitCode::usage,
         fmt::format("{}: contains a run with {} files, which must not be changed; choose another --out",
                     folder.string(), files.size()));
+  const fs::path written_by = folder / results_of;
+  if (const std::string other = fs::is_regular_file(written_by) ? read_file(written_by) : command;
+      other != command && fs::exists(folder / "result.json"))
+    throw Error(ExitCode::usage, fmt::format("{}: contains results of ripstop {}, which ripstop {} would "
+                                             "replace; choose another --out",
+                                             folder.string(), other, command));
   make_folder(folder);
-  const fs::path probe = folder / ".ripstop-probe";
-  write_file(probe, "");
-  remove_path(probe);
+  write_file(written_by, command);
 }
 
 void require_unclaimed(const fs::path& folder) {

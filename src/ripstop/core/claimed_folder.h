@@ -67,9 +67,9 @@ class ClaimedFolder {
   std::map<std::string, std::string> kept_;  // name -> hash of the content
 };
 
-/// Makes a folder for the results of a command that is no run, and checks that files can be written there. Throws
-/// Error(usage) where a run has written, whose files would be replaced, Error(io).
-void make_results_folder(const std::filesystem::path& folder);
+/// Makes a folder for the results of a `command` that is no run, and checks that files can be written there. Throws
+/// Error(usage) where a run or another command has written, whose files would be replaced, Error(io).
+void make_results_folder(const std::filesystem::path& folder, const std::string& command);
 /// Throws the same error as ClaimedFolder if another process uses the folder; creates nothing.
 void require_unclaimed(const std::filesystem::path& folder);
 /// Text of note(). Throws Error(bad_data) when it is damaged.

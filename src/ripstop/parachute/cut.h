@@ -89,7 +89,9 @@ struct Bill {
   double mass = 0;           // [kg], thread not counted
   double packed_volume = 0;  // [m3]
 };
-inline constexpr double packed_by_hand = 400;  // [kg/m3], order of Knacke's figures
+inline constexpr double packed_by_hand =
+    400;  // [kg/m3], order of Knacke's figures, and dense for a packing by hand
+inline constexpr double loosely_packed = 250;  // [kg/m3] (assumed)
 /// `packing_density` [kg/m3]: packed_by_hand, or 600 under a press (likewise).
 Bill bill_of(const CutPattern& pattern, const Design& design, const PartMaterials& materials,
              const Allowances& allowances, double packing_density);

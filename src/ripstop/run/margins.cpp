@@ -113,6 +113,10 @@ std::vector<Margin> weakest_of_kinds(const Margins& margins) {
   return rows;
 }
 
+std::string margin_text(double margin) {
+  return margin < 0 && margin > -0.005 ? rounded(margin, 1) : fmt::format("{:+.2f}", margin);
+}
+
 std::vector<std::string> margin_warnings(const std::optional<Margins>& margins) {
   std::vector<std::string> all;
   if (!margins) return all;
@@ -120,9 +124,9 @@ std::vector<std::string> margin_warnings(const std::optional<Margins>& margins) 
     if (m.margin && *m.margin < 0)
       all.push_back(
           fmt::format("{} exceeds its allowable load: its load of {} {} with the safety factor is {} "
-                      "times the allowable {} {} (margin of safety {:+.2f}); use a stronger material",
-                      m.member, rounded(m.load), m.unit, rounded(*m.used, 3),
-                      rounded(*m.strength * m.knock_down), m.unit, *m.margin));
+                      "times the allowable {} {} (margin of safety {}); use a stronger material",
+                      m.member, rounded(m.load), m.unit, rounded_apart(*m.used, 1).first,
+                      rounded(*m.strength * m.knock_down), m.unit, margin_text(*m.margin)));
   return all;
 }
 

@@ -56,6 +56,8 @@ Margins load_margins(const Settings& resolved, double load, double snatch = 0);
 /// One row a kind of member: of the lines the weakest.
 std::vector<Margin> weakest_of_kinds(const Margins& margins);
 
+/// With its sign; a margin just below 0 is never "-0.00".
+std::string margin_text(double margin);
 /// In words, every kind of member whose margin of safety is below 0.
 std::vector<std::string> margin_warnings(const std::optional<Margins>& margins);
 

@@ -13,6 +13,7 @@
 #include "ripstop/case/openrocket_import.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/process.h"
+#include "ripstop/run/descent/flown.h"
 #include "ripstop/run/opening/filling.h"
 #include "tests/run/steady/finished_run.h"
 
@@ -71,6 +72,27 @@ space["add_to"](Rocket())
   EXPECT_NE(rocketpy_text(p, "apogee").find("trigger=\"apogee\""), std::string::npos);
   for (const char* wrong : {"apogeo", "-3", "nan", "300m", ""})
     EXPECT_THROW(rocketpy_text(p, wrong), Error) << wrong;
+}
+
+TEST_F(Export, StatesTheRangeInDescentOfAnAxialDragArea) {
+  const FinishedSteady run = finished_steady(folder_->path / "run");
+  const ExportedParachute p = parachute();
+  ASSERT_EQ(p.basis, "axial");
+  const DescentDrag range =
+      descent_drag(run.resolved, {p.drag_coefficient, "", usual_drag_uncertainty, "axial"});
+  const std::string text = fmt::format("C_D {:.3f} to {:.3f} on S0", range.low, range.high);
+  ASSERT_FALSE(p.warnings.empty());
+  EXPECT_NE(p.warnings.back().find(text), std::string::npos) << p.warnings.back();
+  EXPECT_NE(rocketpy_text(p, "apogee").find(text), std::string::npos);
+}
+
+TEST_F(Export, WarnsOfADrogueLargerThanTheMain) {
+  ExportedRecovery recovery{{{parachute()}, {parachute()}}};
+  const std::size_t own = warnings_of(recovery).size();
+  recovery.stages[1].parachute.drag_area *= 0.5;
+  const std::vector<std::string> warnings = warnings_of(recovery);
+  ASSERT_EQ(warnings.size(), own + 1);
+  EXPECT_NE(warnings.back().find("exchange the two parachutes"), std::string::npos);
 }
 
 TEST_F(Export, OpenRocketIsAComponentDatabaseWithItsElementsAndMaterials) {

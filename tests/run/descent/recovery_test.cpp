@@ -193,6 +193,34 @@ TEST(Recovery, ASnatchLoadAboveTheDesignLoadDeterminesTheHardware) {
   EXPECT_FALSE(run_recovery(canopy(3.5), {}, request()).stages[0].snatch_load);
 }
 
+// A linear cord: E = m1 m2 v^2 / (2 (m1 + m2)), F = sqrt(2 E k / L); of three sections the most even parting.
+TEST(Recovery, TheSeparationOfSectionsIsALoadOfTheShockCord) {
+  const std::vector<Setting> cord = {{"hardware.cord.kind", "textile"},
+                                     {"hardware.cord.breaking_load_n", "20000"},
+                                     {"hardware.cord.length_m", "9"},
+                                     {"hardware.cord.stiffness_n", "40000"},
+                                     {"hardware.swivel.rated_load_n", "9000"}};
+  RecoveryRequest asked = request();
+  asked.sections = {4, 5, 13}, asked.separation_speed = 10;
+  const double load = std::sqrt(9.0 * 13 / 22 * 100 * 40000 / 9);
+  const RecoveryStage slow = run_recovery(canopy(3.5, cord), {}, asked).stages[0];
+  EXPECT_NEAR(slow.separation_load.value(), load, 1e-4 * load);
+  asked.separation_speed = 100;
+  const RecoveryStage fast = run_recovery(canopy(3.5, cord), {}, asked).stages[0];
+  EXPECT_NEAR(fast.hardware.rated, 10 * load, 1e-3 * load);
+  for (std::size_t i = 0; i < fast.margins->members.size(); ++i) {
+    const Margin &m = fast.margins->members[i], &before = slow.margins->members[i];
+    const bool hardware = m.member == "cord" || m.member == "swivel";
+    EXPECT_NEAR(m.load, hardware ? 10 * load : before.load, 1e-3 * load) << m.member;
+  }
+  EXPECT_NE(refusal_of([&] { run_recovery(canopy(3.5), {}, asked); }, ExitCode::usage).find("shock cord"),
+            std::string::npos);
+  asked.sections.clear();
+  EXPECT_NE(
+      refusal_of([&] { run_recovery(canopy(3.5, cord), {}, asked); }, ExitCode::usage).find("--section"),
+      std::string::npos);
+}
+
 TEST(Recovery, RowsAndTablesNameTheirStage) {
   const RecoveryResult r = run_recovery(canopy(3.5), canopy(0.7), request());
   EXPECT_EQ(r.rows.front().open, 1);
@@ -260,6 +288,31 @@ TEST(Recovery, WarnsOfAMainThatIsNotFilledAtTheGround) {
   low.main_height = 3;
   EXPECT_TRUE(warns_of(run_recovery(canopy(3.5), canopy(0.7), low), "main: it opens too low"));
   EXPECT_FALSE(warns_of(run_recovery(canopy(3.5), canopy(0.7), request()), "opens too low"));
+}
+
+// While a canopy opens, the trajectory has up to C_x times its drag area; a landing then would seem soft.
+TEST(Recovery, ALandingDuringTheOpeningIsReportedAndIsNotSlowerThanUnderTheOpenCanopy) {
+  const RecoveryResult high = run_recovery(canopy(3.5), canopy(0.7), request());
+  EXPECT_FALSE(warns_of(high, "steady descent"));
+  for (const double height : {22.0, 26.0, 30.0, 33.0, 40.0}) {
+    RecoveryRequest low = request();
+    low.main_height = height;
+    const RecoveryResult r = run_recovery(canopy(3.5), canopy(0.7), low);
+    EXPECT_TRUE(warns_of(r, "steady descent") || warns_of(r, "it is not filled")) << height;
+    EXPECT_GE(r.landing_speed.value, 0.998 * high.landing_speed.value) << height;
+    EXPECT_GE(r.landing_speed.low, 0.998 * high.landing_speed.low) << height;
+    EXPECT_GE(r.energy.low, 0.996 * high.energy.low) << height;
+  }
+}
+
+TEST(Recovery, WarnsOfADrogueLargerThanTheMain) {
+  const RecoveryResult r = run_recovery(canopy(0.7), canopy(3.5), request());
+  EXPECT_TRUE(warns_of(r, "exchange the two parachutes"));
+  EXPECT_FALSE(warns_of(run_recovery(canopy(3.5), canopy(0.7), request()), "exchange"));
+  for (const RecoveryStage& s : r.stages) {
+    EXPECT_LE(s.least_design_load, s.design_load) << s.name;
+    EXPECT_GE(s.largest_design_load, s.design_load) << s.name;
+  }
 }
 
 TEST(Recovery, AMainAboveTheApogeeAndADelayToTheGroundAreRefused) {

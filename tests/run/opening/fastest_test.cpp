@@ -130,6 +130,37 @@ TEST(Fastest, WithALeastLoadIsAbsentOnlyWhereThatLoadIsNotCarried) {
   EXPECT_NEAR(*free.speed / *free.lowest, std::sqrt(1.3), 2e-3);
 }
 
+TEST(Hardware, AStretchingPartNeedsItsKindSinceTheFactorsDependOnIt) {
+  const std::vector<Setting> cord = {{"hardware.cord.breaking_load_n", "9000"},
+                                     {"hardware.cord.length_m", "5"},
+                                     {"hardware.cord.stiffness_n", "40000"}};
+  EXPECT_NE(refusal_of([&] { flat_circular(cord); }, ExitCode::usage).find("kind = \"textile\""),
+            std::string::npos);
+  const auto used = [&](const char* kind) {
+    std::vector<Setting> whole = cord;
+    whole.push_back({"hardware.cord.kind", kind});
+    const Margins margins = load_margins(flat_circular(whole), 1000);
+    EXPECT_EQ(margins.members.back().member, "cord");
+    return *margins.members.back().used;
+  };
+  // 1 / (0.8 x 0.95 x 0.95 x 0.95)
+  EXPECT_NEAR(used("textile") / used("metal"), 1.4579, 1e-3);
+}
+
+TEST(Hardware, WarnsOfStrengthsThatLackTheFactorsOfATextilePart) {
+  const auto warns = [](std::vector<Setting> cord, const std::string& of) {
+    const FastestResult r = run_fastest(flat_circular(cord), request());
+    return std::any_of(r.warnings.begin(), r.warnings.end(),
+                       [&](const std::string& text) { return text.find("hardware.cord: " + of) == 0; });
+  };
+  const Setting textile{"hardware.cord.kind", "textile"}, metal{"hardware.cord.kind", "metal"},
+      rated{"hardware.cord.rated_load_n", "9000"}, breaking{"hardware.cord.breaking_load_n", "9000"};
+  EXPECT_TRUE(warns({textile, rated}, "the rated load of a textile part"));
+  EXPECT_TRUE(warns({breaking}, "without kind it is metal"));
+  EXPECT_FALSE(warns({metal, rated}, "") || warns({rated}, "") || warns({metal, breaking}, "") ||
+               warns({textile, breaking}, ""));
+}
+
 TEST(Hardware, NeedsExactlyOneStrengthAndItsStretchInFull) {
   for (const std::vector<Setting>& wrong :
        {std::vector<Setting>{{"hardware.a.strands", "2"}},
@@ -141,7 +172,8 @@ TEST(Hardware, NeedsExactlyOneStrengthAndItsStretchInFull) {
 
 // The energy of the snatch in a stiffer or shorter part is a higher load, and in a longer or softer one a lower load.
 TEST(Snatch, ChangesWithLengthAndStiffnessOfAShockCord) {
-  const Settings resolved = flat_circular({{"hardware.cord.breaking_load_n", "9000"},
+  const Settings resolved = flat_circular({{"hardware.cord.kind", "textile"},
+                                           {"hardware.cord.breaking_load_n", "9000"},
                                            {"hardware.cord.length_m", "5"},
                                            {"hardware.cord.stiffness_n", "5000"}});
   LoadRequest asked = request();

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "ripstop/case/payload.h"
 #include "ripstop/core/positive.h"
 #include "ripstop/run/descent/descent.h"
+#include "ripstop/run/descent/flown.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/opening/filling.h"
 #include "ripstop/run/sizing/pattern.h"
@@ -32,6 +34,20 @@ void take_deployment_speed(const FinishedSteady& run, const std::optional<double
   require_positive("deployment speed (m/s)", p.deployment_speed);
 }
 
+/// The deviation is that of the axial coefficient. In descent it has the range of `ripstop recovery`.
+std::string axial_warning(const Settings& resolved, double uncertainty, const ExportedParachute& p) {
+  const DescentDrag range = descent_drag(
+      resolved, {p.drag_coefficient, "", std::max(usual_drag_uncertainty, uncertainty), p.basis});
+  return fmt::format(
+      "{}: the drag area of {:.4g} m2 is axial; in descent its range is {:.4g} to {:.4g} m2, C_D {:.3f} to "
+      "{:.3f} "
+      "on S0 ({}), as for ripstop recovery. The exported standard deviation of {:.2g} % does not contain "
+      "this "
+      "range: repeat the analysis with both ends, or export a flight with --flight",
+      p.title, p.drag_area, range.low * p.nominal_area, range.high * p.nominal_area, range.low, range.high,
+      range.from, 100 * p.drag_area_deviation / p.drag_area);
+}
+
 }  // namespace
 
 std::string to_json(const ExportedParachute& parachute) {
@@ -40,6 +56,17 @@ std::string to_json(const ExportedParachute& parachute) {
 
 std::string to_json(const ExportedRecovery& recovery) {
   return json_text(recovery);
+}
+
+std::vector<std::string> warnings_of(const ExportedRecovery& recovery) {
+  std::vector<std::string> all;
+  for (const ExportedStage& stage : recovery.stages)
+    all.insert(all.end(), stage.parachute.warnings.begin(), stage.parachute.warnings.end());
+  if (recovery.stages.size() != 2) return all;
+  for (std::string& text :
+       exchanged_parachutes(recovery.stages[0].parachute.drag_area, recovery.stages[1].parachute.drag_area))
+    all.push_back(std::move(text));
+  return all;
 }
 
 ExportedParachute exported(const FinishedSteady& run, std::optional<double> deployment_speed,
@@ -65,7 +92,7 @@ ExportedParachute exported(const FinishedSteady& run, std::optional<double> depl
   p.lag = constant * p.nominal_diameter / p.deployment_speed;
   p.lag_from = fmt::format("filling distance {:.3g} D0 at {:.3g} m/s ({}): {}", constant, p.deployment_speed,
                            p.deployment_speed_from, filling.source);
-  p.lag_deviation = lag_scatter * p.lag;
+  p.lag_deviation = filling_time_scatter * p.lag;
   p.mass = run.parachute_mass;
   p.gores = design.gores, p.line_count = design.lines.count, p.line_length = design.lines.length_m;
   p.line_material = design.lines.material, p.line_density = run.resolved.materials().line.linear_density_kg_m;
@@ -76,6 +103,7 @@ ExportedParachute exported(const FinishedSteady& run, std::optional<double> depl
   p.packed_length = 2 * p.packed_diameter;
   p.warnings = run.warnings;
   if (flight) p.warnings.insert(p.warnings.end(), flight->warnings.begin(), flight->warnings.end());
+  if (p.basis == "axial") p.warnings.push_back(axial_warning(run.resolved, carries.uncertainty, p));
   return p;
 }
 

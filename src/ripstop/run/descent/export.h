@@ -17,7 +17,9 @@ namespace ripstop::inline run {
 struct ExportedParachute {
   std::string title, run;
   double drag_area = 0, drag_area_uncertainty = 0;  // [m2]
-  double drag_area_deviation = 0;                   // standard deviation for a dispersion analysis [m2]
+  /// Standard deviation for a dispersion analysis (assumed): half of usual_drag_uncertainty, or the uncertainty of the
+  /// run where that is larger [m2].
+  double drag_area_deviation = 0;
   double nominal_diameter = 0, nominal_area = 0, drag_coefficient = 0;
   std::string drag_coefficient_on;  // the member that is its reference area
   std::string basis;                // "axial": of the steady run; "descent": of the flight
@@ -103,10 +105,8 @@ void each_member(T& r, Visit&& visit) {
   visit("drogue_released", r.drogue_released);
 }
 std::string to_json(const ExportedRecovery& recovery);
-
-/// Standard deviations for a dispersion analysis (assumed): half of usual_drag_uncertainty, or the uncertainty of the run
-/// where that is larger; of the filling time a third.
-inline constexpr double lag_scatter = 1.0 / 3;
+/// Of its parachutes, and of a drogue with more drag area than the main.
+std::vector<std::string> warnings_of(const ExportedRecovery& recovery);
 
 /// Python: the arguments of RocketPy's Rocket.add_parachute and of StochasticParachute, and functions that add them.
 /// RocketPy uses the drag area of the parachute that opened last, so that of a drogue which remains attached is added to

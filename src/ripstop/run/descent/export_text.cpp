@@ -10,6 +10,7 @@
 #include "ripstop/core/markup.h"
 #include "ripstop/run/descent/export.h"
 #include "ripstop/run/json.h"
+#include "ripstop/run/opening/filling.h"
 
 namespace ripstop::inline run {
 namespace {
@@ -231,8 +232,8 @@ std::string rocketpy_text(const ExportedRecovery& recovery) {
           ? "# cd_s of the main includes the drogue, which remains attached: RocketPy uses the last one "
             "only.\n"
           : "",
-      sampling_rate, timed ? after_class : "", arguments, 50 * usual_drag_uncertainty, 100 * lag_scatter,
-      deviations);
+      sampling_rate, timed ? after_class : "", arguments, 50 * usual_drag_uncertainty,
+      100 * filling_time_scatter, deviations);
 }
 
 std::string rocketpy_text(const ExportedParachute& p, const std::string& trigger) {

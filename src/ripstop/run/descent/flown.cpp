@@ -9,6 +9,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/core/reasons.h"
+#include "ripstop/core/words.h"
 
 namespace ripstop::inline run {
 namespace {
@@ -45,6 +46,15 @@ std::vector<double> ratios(Fits&& fits) {
 const std::vector<FlownDrag>& flown_drags() {
   static const std::vector<FlownDrag> all = read_flown_drags();
   return all;
+}
+
+std::vector<std::string> exchanged_parachutes(double drogue_area, double main_area) {
+  if (drogue_area <= main_area) return {};
+  const auto [drogue, main] = rounded_apart(drogue_area, main_area);
+  return {
+      fmt::format("the drogue has a drag area of {} m2, more than the {} m2 of the main: exchange the two "
+                  "parachutes",
+                  drogue, main)};
 }
 
 DescentDrag descent_drag(const Settings& resolved, const DragCoefficient& drag) {

@@ -20,6 +20,9 @@ struct FlownDrag {
 /// Throws Error(io) when the file is missing, Error(bad_data) when it is broken.
 const std::vector<FlownDrag>& flown_drags();
 
+/// In words: a drogue with more drag area than the main [m2].
+std::vector<std::string> exchanged_parachutes(double drogue_area, double main_area);
+
 /// Smallest and largest coefficient in descent on S0.
 struct DescentDrag {
   double low = 0, high = 0;

@@ -18,12 +18,14 @@
 #include "ripstop/core/positive.h"
 #include "ripstop/core/words.h"
 #include "ripstop/flight/atmosphere.h"
+#include "ripstop/flight/descent.h"
 #include "ripstop/flight/validity.h"
 #include "ripstop/flight/wind.h"
 #include "ripstop/fsi/opening_estimate.h"
 #include "ripstop/output/csv.h"
 #include "ripstop/output/plot.h"
 #include "ripstop/run/json.h"
+#include "ripstop/run/opening/filling.h"
 #include "ripstop/run/opening/handbook.h"
 #include "ripstop/run/opening/snatch.h"
 #include "ripstop/run/report/report.h"
@@ -35,6 +37,10 @@ namespace ripstop::inline run {
 namespace {
 
 constexpr double longest_descent = 1e5, slow_step = 0.05, steps_of_filling = 400;  // [s], [s], -
+
+// A descent is steady within 5 % of the terminal speed of the open canopy, and not before three filling times. Until
+// then the drag area exceeds that of the open canopy. The filling time is the longest within two standard deviations.
+constexpr double steady_share = 0.05, steady_fillings = 3 * (1 + 2 * filling_time_scatter);
 
 struct RecoveryCanopy {
   std::string name;
@@ -55,10 +61,11 @@ double drag_at(DragEnd end, const RecoveryCanopy& canopy) {
 /// One stage of one flight.
 struct FlownStage {
   FlightState opening;
-  LoadResult load;        // of run_load() there
-  bool filled = true;     // before the next opening or the ground
-  double peak_force = 0;  // on its canopy along the trajectory [N]
-  double end_speed = 0, duration = 0, drift = 0;
+  LoadResult load;                                              // of run_load() there
+  bool filled = true;                                           // before the next opening or the ground
+  bool steady = true;                                           // at its end
+  double peak_force = 0;                                        // on its canopy along the trajectory [N]
+  double end_speed = 0, terminal = 0, duration = 0, drift = 0;  // terminal: of the open canopy at the end
 };
 struct Flown {
   std::vector<FlownStage> stages;
@@ -71,6 +78,11 @@ void check_recovery(const RecoveryRequest& q, bool two_stages) {
   require_positive("airspeed at apogee (m/s)", q.speed);
   if (!(q.delay >= 0))
     throw Error(ExitCode::usage, fmt::format("a delay of {:g} s: must be 0 or above", q.delay));
+  if (q.separation_speed) {
+    require_positive("speed at which sections part (m/s)", *q.separation_speed);
+    if (q.sections.size() < 2)
+      throw Error(ExitCode::usage, "a separation needs the masses of the sections: give --section KG,KG");
+  }
   if (two_stages && !(q.main_height > 0 && q.main_height < q.apogee))
     throw Error(ExitCode::usage,
                 fmt::format("the main opens {:g} m above the ground: must be above 0 and below the apogee of "
@@ -145,6 +157,9 @@ class RecoveryFlight {
     }
     before_ = opening.drag_area;
     stage.duration = state_.time - begin, stage.end_speed = state_.speed, stage.drift = drift_ - drift;
+    stage.terminal = terminal_speed(mass_, others + opening.drag_area, standard_air(state_.height).density);
+    stage.steady = std::abs(stage.end_speed / stage.terminal - 1) <= steady_share &&
+                   stage.duration >= steady_fillings * opening.filling_time;
     flown_.stages.push_back(std::move(stage));
   }
 
@@ -233,6 +248,31 @@ EndOpening opening_at(DragEnd end, const RecoveryCanopy& canopy, std::size_t i,
   return opening;
 }
 
+/// A landing before the descent is steady in one of the flights. Nothing for a canopy that is not filled: that has
+/// another warning.
+std::vector<std::string> landing_warnings(const std::string& name, const std::vector<Flown>& flights) {
+  const FlownStage& stage = flights[0].stages.back();
+  const bool steady = std::all_of(flights.begin(), flights.end(),
+                                  [](const Flown& flown) { return flown.stages.back().steady; });
+  if (steady || !stage.filled) return {};
+  return {fmt::format(
+      "{}: it opens too low for a steady descent: it lands {} s after line stretch at {} m/s. A "
+      "steady descent begins after {} s ({:g} filling times, for a slow filling) and within {:g} % "
+      "of {} m/s. Landing speed and energy are not reliable; open it higher",
+      name, rounded(stage.duration, 3), rounded(stage.end_speed, 3),
+      rounded(steady_fillings * stage.load.stages.front().filling_time, 3), steady_fillings,
+      100 * steady_share, rounded(stage.terminal, 3))};
+}
+
+/// Hardware carries the separation load where it exceeds the others.
+void add_separation(const Settings& resolved, double separation, Margins& margins) {
+  const Margins separated = load_margins(resolved, separation);
+  for (std::size_t i = 0; i < margins.members.size(); ++i)
+    if (Margin& m = margins.members[i]; resolved.hardware().contains(m.member) && m.load < separation)
+      m = separated.members.at(i);
+  if (const Margin* least = weakest(margins)) margins.weakest = least->member;
+}
+
 RecoveryStage stage_of(const RecoveryCanopy& canopy, std::size_t i, const std::vector<Flown>& flights,
                        const RecoveryRequest& request, std::vector<std::string>& warnings) {
   const FlownStage& flown = flights[0].stages[i];
@@ -252,14 +292,21 @@ RecoveryStage stage_of(const RecoveryCanopy& canopy, std::size_t i, const std::v
     s.design_load = flown.peak_force, s.design_load_from = "largest force of the trajectory";
   const EndOpening low = opening_at(DragEnd::low, canopy, i, flights, request),
                    high = opening_at(DragEnd::high, canopy, i, flights, request);
-  s.least_design_load = (1 - low.uncertainty.value) * low.design_load();
-  s.largest_design_load = (1 + high.uncertainty.value) * high.design_load();
+  // A canopy that opens slower than it descends accelerates while it fills: its load can be largest at the lowest speed.
+  s.least_design_load = std::min({s.design_load, (1 - low.uncertainty.value) * low.design_load(),
+                                  (1 - high.uncertainty.value) * high.design_load()});
+  s.largest_design_load = std::max({s.design_load, (1 + low.uncertainty.value) * low.design_load(),
+                                    (1 + high.uncertainty.value) * high.design_load()});
   s.load_uncertainty = high.uncertainty.value, s.load_uncertainty_from = high.uncertainty.from;
   const auto snatch = snatch_of(canopy.resolved, high.asked, high.load);
   if (snatch) s.snatch_load = snatch->largest();
+  if (request.separation_speed)
+    s.separation_load = separation_load(canopy.resolved, request.sections, *request.separation_speed);
   const double largest_snatch = s.snatch_load.value_or(0);
   s.margins = load_margins(canopy.resolved, s.largest_design_load, largest_snatch);
-  s.hardware = hardware_need(std::max(s.largest_design_load, largest_snatch), canopy.resolved.margins());
+  if (s.separation_load) add_separation(canopy.resolved, *s.separation_load, *s.margins);
+  s.hardware = hardware_need(std::max({s.largest_design_load, largest_snatch, s.separation_load.value_or(0)}),
+                             canopy.resolved.margins());
   s.safe = run_fastest(canopy.resolved, high.asked, 0, high.uncertainty, high.least_load).design();
   s.descent_rate = ranged(flights, [&](const Flown& f) { return f.stages[i].end_speed; });
   s.duration = ranged(flights, [&](const Flown& f) { return f.stages[i].duration; });
@@ -269,6 +316,8 @@ RecoveryStage stage_of(const RecoveryCanopy& canopy, std::size_t i, const std::v
   if (request.bay_diameter)
     s.bay_length = s.packed_volume / (std::numbers::pi / 4 * *request.bay_diameter * *request.bay_diameter);
   for (const std::string& text : strain_warnings(canopy.resolved, 0))
+    warnings.push_back(fmt::format("{}: {}", canopy.name, text));
+  for (const std::string& text : hardware_warnings(canopy.resolved))
     warnings.push_back(fmt::format("{}: {}", canopy.name, text));
   for (const std::string& text : margin_warnings(s.margins))
     warnings.push_back(fmt::format("{}: {}", canopy.name, text));
@@ -336,10 +385,25 @@ RecoveryResult run_recovery(const Settings& main, const std::optional<Settings>&
   r.apogee_wind = norm(wind_velocity(wind, request.apogee, std::numeric_limits<double>::infinity()));
   for (std::size_t i = 0; i < canopies.size(); ++i)
     r.stages.push_back(stage_of(canopies[i], i, flights, request, r.warnings));
+  if (request.separation_speed && std::none_of(r.stages.begin(), r.stages.end(), [](const RecoveryStage& s) {
+        return s.separation_load.has_value();
+      }))
+    throw Error(
+        ExitCode::usage,
+        "a separation needs the shock cord: give [hardware.NAME] with length_m and stiffness_n in the case "
+        "of the parachute that opens then");
   r.time = ranged(flights, [](const Flown& f) { return f.rows.back().flight.state.time; });
   r.drift = ranged(flights, [](const Flown& f) { return f.rows.back().drift; });
   r.range = flights[0].rows.back().flight.state.range;
-  r.landing_speed = r.stages.back().descent_rate;
+  // While a canopy opens, its drag area exceeds that of the open canopy; a landing is not planned with it.
+  r.landing_speed = ranged(
+      flights, [](const Flown& f) { return std::max(f.stages.back().end_speed, f.stages.back().terminal); });
+  for (std::string& text : landing_warnings(canopies.back().name, flights))
+    r.warnings.push_back(std::move(text));
+  if (canopies.size() == 2)
+    for (std::string& text : exchanged_parachutes(canopies[0].drag.value * canopies[0].area,
+                                                  canopies[1].drag.value * canopies[1].area))
+      r.warnings.push_back(std::move(text));
   const auto energy = [&](double mass) {
     const auto of = [&](double speed) { return 0.5 * mass * speed * speed; };
     return Ranged{of(r.landing_speed.value), of(r.landing_speed.low), of(r.landing_speed.high)};
@@ -389,7 +453,7 @@ void add_ranges(ReportRun& run, const RecoveryResult& r) {
 }  // namespace
 
 void write_recovery(const std::filesystem::path& folder, const RecoveryResult& r) {
-  make_results_folder(folder);
+  make_results_folder(folder, "recovery");
   CsvTable table{columns_of<RecoveryRow>(), {}};
   for (const RecoveryRow& row : r.rows) table.rows.push_back(row_of(row));
   write_csv(folder / "trajectory.csv", table);

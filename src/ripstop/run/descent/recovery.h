@@ -29,6 +29,7 @@ struct RecoveryRequest {
   double packing_density = packed_by_hand;           // [kg/m3]
   std::optional<double> bay_diameter;                // inner, of the airframe [m]
   std::vector<double> sections;                      // masses of separate parts at landing [kg]
+  std::optional<double> separation_speed;            // at which two of them part; needs two masses [m/s]
   std::filesystem::path main_steady, drogue_steady;  // runs that provide the drag areas; empty: none
 };
 
@@ -60,15 +61,16 @@ struct RecoveryStage {
   double load_uncertainty = 0;                            // of its upper end at one speed, relative
   std::string load_uncertainty_from;
   std::string design_load_from;
-  std::optional<double> snatch_load;  // by [deployment] of the case, at the highest speed [N]
-  HardwareNeed hardware;             // under the largest design load, or the snatch load where that is larger
-  std::optional<Margins> margins;    // the same
-  SafeSpeed safe;                    // fastest safe deployment by the method of the design load
-  Ranged descent_rate;               // at the end [m/s]
-  Ranged duration, drift;            // [s], with the wind [m]
-  double mass = 0;                   // of the parachute [kg]
-  double packed_volume = 0;          // [m3]
-  std::optional<double> bay_length;  // of the packed parachute in the bay [m]
+  std::optional<double> snatch_load;      // by [deployment] of the case, at the highest speed [N]
+  std::optional<double> separation_load;  // of two sections, on the stretching hardware of its case [N]
+  HardwareNeed hardware;                  // under the largest of design load, snatch load and separation load
+  std::optional<Margins> margins;         // the same
+  SafeSpeed safe;                         // fastest safe deployment by the method of the design load
+  Ranged descent_rate;                    // at the end [m/s]
+  Ranged duration, drift;                 // [s], with the wind [m]
+  double mass = 0;                        // of the parachute [kg]
+  double packed_volume = 0;               // [m3]
+  std::optional<double> bay_length;       // of the packed parachute in the bay [m]
 };
 template <Of<RecoveryStage> T, class Visit>
 void each_member(T& s, Visit&& visit) {
@@ -97,6 +99,7 @@ void each_member(T& s, Visit&& visit) {
   visit("load_uncertainty_from", s.load_uncertainty_from);
   visit("design_load_from", s.design_load_from);
   visit("snatch_load_n", s.snatch_load);
+  visit("separation_load_n", s.separation_load);
   visit("required_hardware", s.hardware);
   visit("margins", s.margins);
   visit("fastest_safe_deployment", s.safe);
@@ -142,7 +145,7 @@ struct RecoveryResult {
   Ranged time;                   // from apogee to the ground [s]
   Ranged drift;                  // with the wind [m]
   double range = 0;              // along the flight path in still air [m]
-  Ranged landing_speed, energy;  // through the air [m/s], of the total mass [J]
+  Ranged landing_speed, energy;  // at least that of the open canopy [m/s], of the total mass [J]
   std::vector<SectionEnergy> sections;
   std::vector<std::string> warnings;
   std::vector<RecoveryRow> rows;  // not in result.json: trajectory.csv

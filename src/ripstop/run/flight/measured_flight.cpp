@@ -172,7 +172,7 @@ MeasuredFlight compare_flight(const Settings& resolved, const MeasuredFlightRequ
 }
 
 void write_measured_flight(const std::filesystem::path& folder, const MeasuredFlight& flight) {
-  make_results_folder(folder);
+  make_results_folder(folder, "compare-flight");
   write_file(folder / "result.json", to_json(flight));
   CsvTable table{{"height_m", "drag_area_m2", "drag_area_uncertainty_m2"}, {}};
   for (const DragAreaAtHeight& point : flight.drag_areas)

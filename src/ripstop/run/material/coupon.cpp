@@ -32,7 +32,7 @@ CouponResult run_coupon(const Fabric& fabric, const CouponShape& shape, double s
 }
 
 void write_coupon_result(const std::filesystem::path& folder, const CouponResult& result) {
-  make_results_folder(folder);
+  make_results_folder(folder, "coupon");
   CsvTable table{columns_of<CouponPoint>(), {}};
   for (const CouponPoint& point : result.pull.points) table.rows.push_back(row_of(point));
   write_csv(folder / "coupon.csv", table);

@@ -97,7 +97,7 @@ FitResult run_fit(const Bench& bench, bool with_coupons, ThreadTeam& team,
 }
 
 std::filesystem::path write_fit(const std::filesystem::path& folder, const FitResult& result) {
-  make_results_folder(folder);
+  make_results_folder(folder, "fit");
   const std::filesystem::path file = folder / (result.bench.name + ".toml");
   write_file(file, material_toml(result));
   for (const char* name : {"result.json", "fit.json"}) write_file(folder / name, to_json(result));

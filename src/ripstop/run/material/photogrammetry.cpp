@@ -100,7 +100,7 @@ Photogrammetry run_photogrammetry(const std::optional<Image>& image,
 }
 
 void write_photogrammetry(const std::filesystem::path& folder, const Photogrammetry& result) {
-  make_results_folder(folder);
+  make_results_folder(folder, "photogrammetry");
   Plot plot{result.title, {"distance from the skirt [m]"}, {"radius [m]", false, 0.0}, {}};
   if (result.profile) plot.series = computed_series(*result.profile);
   if (result.diameters) {

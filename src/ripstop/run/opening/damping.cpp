@@ -42,7 +42,7 @@ DampingResult run_damping(const Settings& resolved, const LoadSource& source, co
 }
 
 void write_damping(const std::filesystem::path& folder, const DampingResult& result) {
-  make_results_folder(folder);
+  make_results_folder(folder, "calibrate");
   CsvTable table{columns_of<DampingTrial>(), {}};
   PlotSeries misfit{"misfit", {}, {}}, peak{"error of the peak", {}, {}};
   for (const DampingTrial& t : result.found.trials) {

@@ -228,6 +228,7 @@ FastestResult run_fastest(const Settings& resolved, LoadRequest request, double 
   if (r.snatch && r.snatch->other_load) r.warnings.push_back(two_snatch_loads(*r.snatch));
   r.advice = advice_of(r, fast.filling_constant);
   for (std::string& text : strain_warnings(resolved, 0)) r.warnings.push_back(std::move(text));
+  for (std::string& text : hardware_warnings(resolved)) r.warnings.push_back(std::move(text));
   if (r.design().unsafe_at)
     r.warnings.push_back(
         fmt::format("no deployment is safe by the method {}: at {:.3g} m/s, about the rate of descent, the "
@@ -238,7 +239,7 @@ FastestResult run_fastest(const Settings& resolved, LoadRequest request, double 
 }
 
 void write_fastest(const std::filesystem::path& folder, const FastestResult& result) {
-  make_results_folder(folder);
+  make_results_folder(folder, "load");
   write_file(folder / "result.json", to_json(result));
 }
 

@@ -17,6 +17,9 @@ struct KnownFilling {
 /// families are in proportion (assumed).
 double filling_constant_at(double constant, double speed);
 
+/// Relative standard deviation of a filling time by these constants (assumed).
+inline constexpr double filling_time_scatter = 1.0 / 3;
+
 /// By the family's word in [parachute] type. A word that is not in the tables
 /// gets the values of a solid canopy, with that source.
 KnownFilling known_filling(const std::string& type);

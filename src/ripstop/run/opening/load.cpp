@@ -405,6 +405,7 @@ LoadResult run_load(const Settings& resolved, const LoadRequest& request) {
   choose_coefficients(resolved, request, r);
   r.warnings = warnings_of_used({request.steady, request.opening, request.filling_from});
   for (std::string& text : strain_warnings(resolved, 0)) r.warnings.push_back(std::move(text));
+  for (std::string& text : hardware_warnings(resolved)) r.warnings.push_back(std::move(text));
   const double mass = r.payload_mass + r.parachute_mass, area = r.drag_coefficient * r.reference_area;
   if (request.speed <= slowest_opening(mass, area, r.density, request.path_angle)) {
     const auto [rate, speed] = rounded_apart(terminal_speed(mass, area, r.density), request.speed);

@@ -40,7 +40,7 @@ double end_of_plot(const LoadResult& r) {
 }  // namespace
 
 void write_load(const std::filesystem::path& folder, const LoadResult& r) {
-  make_results_folder(folder);
+  make_results_folder(folder, "load");
   write_csv(folder / "trajectory.csv", table_of(r.flight));
   if (!r.record_flight.empty()) write_csv(folder / "trajectory_computed.csv", table_of(r.record_flight));
   const double end = end_of_plot(r);

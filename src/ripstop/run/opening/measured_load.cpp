@@ -155,7 +155,7 @@ MeasuredLoad compare_load(const MeasuredLoadRequest& request) {
 }
 
 void write_measured_load(const std::filesystem::path& folder, const MeasuredLoad& comparison) {
-  make_results_folder(folder);
+  make_results_folder(folder, "compare");
   Plot plot{comparison.title, {"time [s]"}, {"load [N]"}, {}};
   plot.series.push_back({"computed", comparison.computed_time, comparison.computed, true, false, false});
   plot.series.push_back({"measured", comparison.time, comparison.measured, true, false, true});

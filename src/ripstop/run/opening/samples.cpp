@@ -92,7 +92,7 @@ Settings with_seed(const Settings& resolved, int seed) {
 
 SampleSummary run_samples(const InflationFolderSettings& settings, const Settings& resolved, int samples,
                           const std::function<void(const InflationFolderSettings&, const Settings&)>& open) {
-  make_results_folder(settings.run.folder);
+  make_results_folder(settings.run.folder, "inflate");
   SampleSummary summary;
   summary.title = resolved.title(), summary.samples = samples;
   std::vector<std::string> results;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "ripstop/case/deployment.h"
@@ -119,6 +120,20 @@ std::optional<SnatchResult> snatch_of(const Settings& resolved, const LoadReques
     found.changes.push_back({parts[i].name, snatch.changed(parts, i, 0.5, 1), snatch.changed(parts, i, 2, 1),
                              snatch.changed(parts, i, 1, 0.5), snatch.changed(parts, i, 1, 2)});
   return found;
+}
+
+std::optional<double> separation_load(const Settings& resolved, const std::vector<double>& sections,
+                                      double speed) {
+  std::vector<SnatchPart> cord = stretching_parts(resolved);
+  std::erase_if(cord, [&](const SnatchPart& part) { return !resolved.hardware().contains(part.name); });
+  if (cord.empty()) return {};
+  const double all = std::accumulate(sections.begin(), sections.end(), 0.0);
+  double front = 0, most_even = 0;
+  for (std::size_t i = 0; i + 1 < sections.size(); ++i) {
+    front += sections[i];
+    if (front * (all - front) > most_even * (all - most_even)) most_even = front;
+  }
+  return snatch_load(most_even, all - most_even, speed, cord).load;
 }
 
 }  // namespace ripstop::inline run

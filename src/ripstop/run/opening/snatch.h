@@ -73,4 +73,10 @@ std::string two_snatch_loads(const SnatchResult& snatch);
 std::optional<SnatchResult> snatch_of(const Settings& resolved, const LoadRequest& request,
                                       const LoadResult& result);
 
+/// Largest tension when two sections of a rocket part at `speed` [m/s] and the shock cord stops them: the parts of
+/// [hardware] that stretch, in series [N]. `sections`: masses in their order along the rocket [kg]; they part where the
+/// energy is largest. Nothing where no part stretches. Throws Error(usage) as snatch_load().
+std::optional<double> separation_load(const Settings& resolved, const std::vector<double>& sections,
+                                      double speed);
+
 }  // namespace ripstop::inline run

@@ -129,7 +129,7 @@ VtkSurface fabric_lines(const FabricSolution& solution) {
 
 void write_fabric(const std::filesystem::path& folder, const FabricSolution& solution) {
   const auto& [result, mesh, shape, stress, tensions] = solution;
-  make_results_folder(folder);
+  make_results_folder(folder, "fabric");
   std::vector<double> mises;
   for (const CellStress& s : stress) mises.push_back(s.von_mises);
   write_vtp(folder / "canopy.vtp", fabric_canopy(solution));

@@ -76,7 +76,7 @@ PatternResult run_pattern(const Settings& resolved, const Allowances& allowances
 
 void write_pattern(const std::filesystem::path& folder, const PatternResult& result,
                    const PatternFiles& files) {
-  make_results_folder(folder);
+  make_results_folder(folder, "pattern");
   remove_earlier_drawings(folder);
   const PatternHead head{result.title, files.case_file, files.date};
   PatternResult written = result;

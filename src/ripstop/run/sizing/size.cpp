@@ -245,10 +245,10 @@ void warn(const SizeRequest& request, SizeResult& r) {
       weak && *weak->margin >= 0 && *r.smallest_margin < 0)
     r.warnings.push_back(fmt::format(
         "under the largest load of {} N, the design load with its uncertainty of {:.0f} %, the {} "
-        "exceeds its allowable load (margin of safety {:+.2f}): the fastest safe deployment "
+        "exceeds its allowable load (margin of safety {}): the fastest safe deployment "
         "(ripstop load --fastest) is slower than {:g} m/s; use a stronger material",
-        rounded(r.largest_load), 100 * r.load_uncertainty, r.smallest_margin_member, *r.smallest_margin,
-        r.deployment_speed));
+        rounded(r.largest_load), 100 * r.load_uncertainty, r.smallest_margin_member,
+        margin_text(*r.smallest_margin), r.deployment_speed));
   const StandardAir air = standard_air(r.height);
   const double reynolds = r.density * request.descent_rate * r.nominal_diameter / air.viscosity;
   for (const std::string& text : outside_range(

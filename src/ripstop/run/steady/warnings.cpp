@@ -163,6 +163,22 @@ std::vector<std::string> strain_warnings(const Settings& resolved, double larges
   return all;
 }
 
+std::vector<std::string> hardware_warnings(const Settings& resolved) {
+  std::vector<std::string> all;
+  for (const auto& [name, part] : resolved.hardware())
+    if (part.rated_load_n && part.kind == Hardware::Kind::textile)
+      all.push_back(fmt::format(
+          "hardware.{}: the rated load of a textile part has no factors of [margins] for joints, abrasion, "
+          "moisture and fatigue; give breaking_load_n if the rating is for a new part without joints",
+          name));
+    else if (part.breaking_load_n && !part.kind)
+      all.push_back(fmt::format(
+          "hardware.{}: without kind it is metal, and only the safety factor applies; give kind = "
+          "\"textile\" for a cord or webbing, or \"metal\"",
+          name));
+  return all;
+}
+
 namespace {
 
 using Warnings = std::vector<std::string>;
@@ -190,8 +206,8 @@ Warnings case_warnings(const Settings& resolved) {
 Warnings warnings_of(const Settings& resolved, double largest_cloth_strain, bool own_mesh) {
   const Warnings none;
   return joined({own_mesh ? none : mesh_warnings(resolved), flow_warnings(resolved),
-                 own_mesh ? none : shape_warnings(resolved),
-                 strain_warnings(resolved, largest_cloth_strain)});
+                 own_mesh ? none : shape_warnings(resolved), strain_warnings(resolved, largest_cloth_strain),
+                 hardware_warnings(resolved)});
 }
 
 }  // namespace ripstop::inline run

@@ -22,6 +22,8 @@ std::vector<std::string> air_warnings(const Settings& resolved);
 std::vector<std::string> shape_warnings(const Settings& resolved);
 /// Of the materials: see material_warnings().
 std::vector<std::string> strain_warnings(const Settings& resolved, double largest_cloth_strain);
+/// Of [hardware]: a rated load of a textile part, and a breaking load without the kind.
+std::vector<std::string> hardware_warnings(const Settings& resolved);
 /// Warnings before the computation: those above, of unstretched cloth.
 std::vector<std::string> case_warnings(const Settings& resolved);
 /// All of them. With a mesh of the user's own: without those of the mesh and shape of the case.
