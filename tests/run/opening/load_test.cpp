@@ -213,6 +213,14 @@ TEST(Load, AComputedOpeningIsOneOfTheMethodsThatAreJudged) {
   EXPECT_EQ(method(r.stages[0], "computed opening").load, *r.record_peak_load);
   EXPECT_NE(method(r.stages[0], "computed opening").note.find("one disk-gap-band parachute"),
             std::string::npos);
+  EXPECT_TRUE(std::any_of(r.warnings.begin(), r.warnings.end(), [](const std::string& text) {
+    return text.find("not a prediction") != std::string::npos;
+  }));
+  asked.speed = 1;
+  EXPECT_NE(refusal_of([&] { run_load(resolve(given), asked); }, ExitCode::usage).find("give --angle 0"),
+            std::string::npos);
+  asked = request();
+  asked.opening = folder.path / "run";
   expect_judged(r.stages[0]);
   // That canopy was not reefed.
   asked.reefing = {{0.3, 1}};

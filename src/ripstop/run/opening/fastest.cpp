@@ -173,10 +173,9 @@ std::string advice_of(const FastestResult& r, double filling_distance) {
   return text +
          fmt::format(
              ". The other methods allow {} to {}, because the payload slows down while the canopy fills "
-             "over {:.3g} D0. The distance depends on the deployment: a canopy that is thrown open fills "
-             "over "
-             "a shorter one and then has a higher load. Use these speeds only if a measured opening or a "
-             "coupled inflation (--opening) of this deployment confirms that distance",
+             "over {:.3g} D0. The distance depends on the deployment, and over a shorter one the load is "
+             "higher. Use these speeds only if a measured opening or a coupled inflation (--opening) of this "
+             "deployment confirms that distance",
              printed(low), printed(high), filling_distance);
 }
 
