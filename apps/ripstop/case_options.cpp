@@ -3,16 +3,43 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "number_option.h"
 #include "option.h"
+#include "ripstop/core/error.h"
+#include "ripstop/core/toml/problem.h"
 #include "warnings.h"
 
 namespace ripstop::cli {
+namespace {
+
+/// Neither of two options that give one key silently replaces the other.
+void require_one_option(const Overrides& overrides) {
+  std::map<std::string, std::string> options;  // by key
+  if (overrides.speed) options["flow.speed_m_s"] = "--speed";
+  if (overrides.grid) options["flow.cells"] = "--grid";
+  if (overrides.engine) options["flow.engine"] = "--flow";
+  if (overrides.ranks) options["flow.ranks"] = "--ranks";
+  for (const Setting& setting : overrides.set) {
+    if (setting.remove) continue;
+    const auto [known, first] = options.try_emplace(setting.key, setting.option);
+    if (!first && known->second != setting.option)
+      throw InputError(ExitCode::usage,
+                       {{{"", 0, 0, setting.option},
+                         setting.key,
+                         setting.value,
+                         "",
+                         fmt::format("is also given by {}: give one of them", known->second)}});
+  }
+}
+
+}  // namespace
 
 Case read_given(const std::filesystem::path& file, const Overrides& overrides) {
+  require_one_option(overrides);
   Case given = read_case(file, overrides);
   print_deprecations(given.deprecations);
   return given;

@@ -193,5 +193,17 @@ TEST(Options, AMistakeIsReportedWithTheMeaningOfTheOptionAndAnExample) {
   EXPECT_NE(ripstop_with({"calibrate"}).output.find("damping or porosity"), std::string::npos);
 }
 
+TEST(Options, OfOneKeyAreNotGivenTwice) {
+  const std::vector<std::vector<std::string>> twice = {
+      {"check", stratos, "--speed", "20", "--set", "flow.speed_m_s=30"},
+      {"inflate", stratos, "--check", "--duration", "0.2", "--set", "inflation.duration_s=0.3"}};
+  for (const std::vector<std::string>& arguments : twice) {
+    const Finished run = ripstop_with(arguments);
+    EXPECT_EQ(run.code, 2) << run.output;
+    EXPECT_NE(run.output.find("is also given by " + arguments[arguments.size() - 4]), std::string::npos)
+        << run.output;
+  }
+}
+
 }  // namespace
 }  // namespace ripstop

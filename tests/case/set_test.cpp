@@ -44,19 +44,6 @@ TEST(Set, RemovesAKeyOrATable) {
   }
 }
 
-TEST(Set, OfAKeyThatAnotherOptionGivesIsRefused) {
-  Overrides overrides;
-  overrides.set = {{"inflation.duration_s", "0.2", "--duration"},
-                   parse_setting("inflation.duration_s=0.3", "--set")};
-  EXPECT_THROW(parse_case(valid_case, "small.toml", overrides), InputError);
-  overrides.set.pop_back();
-  EXPECT_DOUBLE_EQ(parse_case(valid_case, "small.toml", overrides).inflation.duration_s, 0.2);
-  overrides.speed = 12;
-  EXPECT_DOUBLE_EQ(parse_case(valid_case, "small.toml", overrides).flow.speed_m_s.value_or(0), 12);
-  overrides.set.push_back(parse_setting("flow.speed_m_s=15", "--set"));
-  EXPECT_THROW(parse_case(valid_case, "small.toml", overrides), InputError);
-}
-
 TEST(Set, OfAMaterialOfTheLibraryLeavesItsOtherValues) {
   const Fabric plain = canopy_fabric(parse_case(valid_case, "small.toml"));
   const Case changed = with("materials." + plain.name + ".pressure_drop_linear_pa_s_m=12.5");

@@ -109,25 +109,6 @@ void rename_old_keys(Document& document, std::vector<Setting>& settings, Case& g
   }
 }
 
-/// Neither of two options that give one key silently replaces the other.
-void require_one_option(const std::vector<Setting>& settings, const std::vector<std::string>& replaced,
-                        const Case& given) {
-  const auto refuse = [](const Setting& setting, const std::string& other) {
-    throw InputError(ExitCode::usage, {{{"", 0, 0, setting.option},
-                                        setting.key,
-                                        setting.value,
-                                        "",
-                                        fmt::format("is also given by {}: give one of them", other)}});
-  };
-  for (auto later = settings.begin(); later != settings.end(); ++later) {
-    if (later->remove) continue;
-    for (auto one = settings.begin(); one != later; ++one)
-      if (one->key == later->key && one->option != later->option && !one->remove) refuse(*later, one->option);
-    if (std::find(replaced.begin(), replaced.end(), later->key) != replaced.end())
-      refuse(*later, given.origins.at(later->key).option);
-  }
-}
-
 }  // namespace
 
 Case parse_case(const std::string& text, const std::string& name, const Overrides& overrides) {
@@ -147,7 +128,6 @@ Case parse_case(const std::string& text, const std::string& name, const Override
   given.materials.merge(from_files);
   for (const Setting& setting : settings) mark_origin(setting, given.origins, problems);
   const std::vector<std::string> replaced = set_values(overrides, given);
-  require_one_option(overrides.set, replaced, given);
   std::erase_if(problems, [&](const Problem& problem) {
     return std::find(replaced.begin(), replaced.end(), problem.key) != replaced.end();
   });
