@@ -14,9 +14,6 @@
 #include "warnings.h"
 
 namespace ripstop::cli {
-namespace {
-
-/// Neither of two options that give one key silently replaces the other.
 void require_one_option(const Overrides& overrides) {
   std::map<std::string, std::string> options;  // by key
   if (overrides.speed) options["flow.speed_m_s"] = "--speed";
@@ -35,8 +32,6 @@ void require_one_option(const Overrides& overrides) {
                          fmt::format("is also given by {}: give one of them", known->second)}});
   }
 }
-
-}  // namespace
 
 Case read_given(const std::filesystem::path& file, const Overrides& overrides) {
   require_one_option(overrides);

@@ -11,6 +11,8 @@ namespace ripstop::cli {
 
 /// A case file with the changes of the command line. Reports its deprecated keys on standard error.
 Case read_given(const std::filesystem::path& file, const Overrides& overrides = {});
+/// Throws InputError if two different options give one key: neither silently replaces the other.
+void require_one_option(const Overrides& overrides);
 /// The settings of that case.
 Settings read_settings(const std::filesystem::path& file, const Overrides& overrides = {});
 

@@ -108,6 +108,7 @@ void print(const Settings& resolved, const CaseSummary& s, std::size_t warnings)
 
 int run(const CheckArguments& options) {
   try {
+    require_one_option(options.overrides);
     const Settings resolved = resolve(read_case(options.case_file, options.overrides));
     if (options.resolved) {
       fmt::print("{}", case_toml(resolved));
