@@ -14,6 +14,7 @@
 #include "warnings.h"
 
 namespace ripstop::cli {
+
 void require_one_option(const Overrides& overrides) {
   std::map<std::string, std::string> options;  // by key
   if (overrides.speed) options["flow.speed_m_s"] = "--speed";
