@@ -104,8 +104,9 @@ void write_pattern_svg(const std::filesystem::path& path, const Piece& piece, co
 void write_bill_csv(const std::filesystem::path& path, const Bill& bill) {
   std::string text = "part,material,count,cut_each,finished,cut,unit,mass_kg\n";
   for (const BillRow& row : bill.rows)
-    text += fmt::format("\"{}\",\"{}\",{},{:.6f},{:.6f},{:.6f},{},{:.6f}\n", row.part, row.material,
-                        row.count, row.cut_each(), row.finished, row.cut, row.is_cloth ? "m2" : "m", row.mass);
+    text +=
+        fmt::format("\"{}\",\"{}\",{},{:.6f},{:.6f},{:.6f},{},{:.6f}\n", row.part, row.material, row.count,
+                    row.cut_each(), row.finished, row.cut, row.is_cloth ? "m2" : "m", row.mass);
   write_file(path, text);
 }
 
