@@ -28,7 +28,7 @@ TEST(Warnings, ClothBeyondItsTestedStrainIsWarnedOfLinesAreNotByTheCloths) {
   ASSERT_EQ(beyond.size(), before + 1);
   int told = 0;
   for (const std::string& warning : beyond)
-    told += warning.find(cloth.name + ": strain 0.21") != std::string::npos;
+    told += warning.find(cloth.name + ": the largest strain of a spring, 0.21,") != std::string::npos;
   EXPECT_EQ(told, 1);
   EXPECT_EQ(warnings_of(resolve(given), 0.21).size(), case_warnings(resolve(given)).size() + beyond.size());
 }
