@@ -6,6 +6,7 @@ import importlib.util
 import json
 import pathlib
 import re
+import tomllib
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
@@ -77,6 +78,16 @@ class Docs(unittest.TestCase):
         wide = [f"{at(page, number)}: {len(line)}" for page in PAGES if TABLES not in page.parents and page not in GENERATED
                 for number, line in prose(page) if len(line) > WIDEST]
         self.assertEqual(wide, [])
+
+    def test_every_block_of_toml_can_be_read(self):
+        broken = []
+        for page in PAGES:
+            for block in re.findall(r"^```toml\n(.*?)^```", page.read_text(), re.MULTILINE | re.DOTALL):
+                try:
+                    tomllib.loads(block)
+                except tomllib.TOMLDecodeError as error:
+                    broken.append(f"{at(page, 0)}: {error}")
+        self.assertEqual(broken, [])
 
     def test_every_table_of_a_command_names_it_and_the_day(self):
         silent = [page.name for page in TABLES.glob("*.md") if not re.search(rf"(?:{MONTHS}) 20\d\d", page.read_text())
