@@ -138,7 +138,7 @@ Answer fitted(FlowProblem problem, const std::string& folder) {
   return {solve(*make_openfoam(settings), problem)};
 }
 
-constexpr const char* names[] = {"built-in engine, in time, DES", "built-in engine, steady",
+constexpr const char* names[] = {"built-in engine, unsteady, DES", "built-in engine, steady",
                                  "OpenFOAM, steady, fitted mesh"};
 
 void attack(const Body& body, int across, const std::vector<double>& angles, Method method,
@@ -148,7 +148,7 @@ void attack(const Body& body, int across, const std::vector<double>& angles, Met
       fmt::format("{} at an angle of attack, {} cells across: {}", body.name, across,
                   names[static_cast<int>(method)]),
       argc, argv,
-      {"angle, deg", "C_T", "C_N", "side force / q S", "standard error of drag, %", "force imbalance, %"});
+      {"angle, deg", "C_T", "C_N", "side force over q S", "standard error of drag, %", "force imbalance, %"});
   for (const double angle : angles) {
     const bool foam = method == Method::fitted;
     const FlowProblem problem =
@@ -191,9 +191,9 @@ int main(int argc, char** argv) {
   const auto number = [&](std::size_t n) { return std::atof(words[n].c_str()); };
   const double d0 = plate ? 1 : number(at + 3);
   const Body body =
-      walls ? Body{fmt::format("plate between walls {} m apart", words[1]), {}, impermeable, number(1), 1}
+      walls ? Body{fmt::format("Plate between walls {} m apart", words[1]), {}, impermeable, number(1), 1}
       : plate
-          ? Body{"square plate", square_plate(1, {}), impermeable, 1, 1}
+          ? Body{"Square plate", square_plate(1, {}), impermeable, 1, 1}
           : centred({words[at], read_stl(words[at]), {number(at + 1), number(at + 2)}, pi / 4 * d0 * d0, d0});
   std::vector<double> angles;
   for (std::size_t n = first + 1; n < words.size(); ++n) angles.push_back(number(n));

@@ -144,9 +144,10 @@ void refine(const Body& body, int finest, double box, double turbulence, Sides s
 void compare_sides(int argc, char** argv) {
   constexpr std::pair<Sides, const char*> kinds[] = {
       {Sides::zero_gradient, "zero gradient"}, {Sides::slip, "slip"}, {Sides::entraining, "entraining"}};
-  std::vector<std::string> columns = {"disk", "width of the box, d"};
+  std::vector<std::string> columns = {"disk", "width of the domain, d"};
   for (const auto& [sides, name] : kinds) columns.push_back(name);
-  print_table_head("Drag coefficient of a disk on d/8 by width and sides of the box", argc, argv, columns);
+  print_table_head("Drag coefficient of a disk on cells of d/8 by width and sides of the domain", argc, argv,
+                   columns);
   for (const char* name : {"porous disk K = 2", "disk"}) {
     for (const double box : {3.0, 4.0, 6.0, 12.0}) {
       std::vector<std::string> row = {name, fmt::format("{:g}", box)};
@@ -178,15 +179,16 @@ void compare_engines(int argc, char** argv) {
   const int across = argc > 2 ? std::atoi(argv[2]) : 8;
   const std::string only = argc > 3 ? argv[3] : "";
   constexpr double box = 12;
-  print_table_head(
-      fmt::format(
-          "Drag coefficients of bodies 1 m across at 30 m/s on d/{}, built-in engine and OpenFOAM, box 12 x "
-          "12 x 18 m, slip sides",
-          across),
-      argc, argv,
-      {"body", "reference", "built-in", "OpenFOAM", "compared with the built-in", "area of OpenFOAM's faces",
-       "for its area", "force imbalance of OpenFOAM", "Cp front, back, built-in", "Cp front, back, OpenFOAM",
-       "minutes"});
+  print_table_head(fmt::format("Drag coefficients of bodies 1 m across at 30 m/s on cells of d/{}, built-in "
+                               "engine and OpenFOAM, domain 12 "
+                               "x 12 x 18 m, slip sides",
+                               across),
+                   argc, argv,
+                   {"body", "reference", "built-in", "OpenFOAM", "OpenFOAM compared with built-in",
+                    "area of OpenFOAM's faces over that of the body - 1",
+                    "OpenFOAM compared with built-in, referred to its area", "force imbalance of OpenFOAM",
+                    "Cp upstream, downstream side, built-in", "Cp upstream, downstream side, OpenFOAM",
+                    "minutes, built-in, OpenFOAM"});
   for (const Body& body : all_bodies(place_in(box))) {
     if (!only.empty() && body.name != only) continue;
     FlowProblem problem = problem_of(body, far_box(1, box, across, place_in(box).z), 0.005, Sides::slip);
@@ -227,14 +229,14 @@ void compare_in_time(int argc, char** argv) {
   constexpr std::pair<SmallEddies, const char*> kinds[] = {{SmallEddies::wale, "wale"},
                                                            {SmallEddies::des, "des"}};
   print_table_head(
-      fmt::format(
-          "Drag coefficients of bodies 1 m across at 30 m/s on d/{}, steady and in time, box 12 x 12 x 18 m, "
-          "entraining sides",
-          across),
+      fmt::format("Drag coefficients of bodies 1 m across at 30 m/s on cells of d/{}, steady and unsteady, "
+                  "domain 12 x 12 x 18 m, "
+                  "entraining sides",
+                  across),
       argc, argv,
-      {"body", "eddies", "reference", "steady", "off by", "in time, standard error", "off by",
-       "Cp front, back, steady", "Cp front, back, in time", "Strouhal", "steps, start-up in all d/U",
-       "minutes"});
+      {"body", "subgrid-scale model", "reference", "steady", "error, steady", "unsteady, standard error",
+       "error, unsteady", "Cp upstream, downstream side, steady", "Cp upstream, downstream side, unsteady",
+       "Strouhal number", "steps; start-up time of total time, d/U", "minutes"});
   for (const Body& body : bodies_in_time(place)) {
     for (const auto& [eddies, word] : kinds) {
       if ((only != "all" && body.name != only) || (!only_eddies.empty() && only_eddies != word)) continue;
@@ -302,10 +304,11 @@ void compare_places(int argc, char** argv) {
   const FlowGrid like = about_body({{-4, -4, 0}, {8, 8, 10}, 0, 0, 0}, 1, across, z);
   const FlowGrid box{like.origin, like.size, like.nx, like.ny, like.nz};
   print_table_head(
-      fmt::format("Steady drag on {} core widths of {:g} to {:g} m, about {} cells a metre, 20 m/s", widths,
-                  2 * narrowest, 2 * widest, across),
+      fmt::format(
+          "Steady drag on {} grids, fine region {:g} to {:g} m wide, about {} cells per metre, 20 m/s",
+          widths, 2 * narrowest, 2 * widest, across),
       argc, argv,
-      {"body", "cells' middle beside the axis", "mean drag, N", "standard deviation", "lowest, N",
+      {"body", "displacement of the cells from the axis", "mean drag, N", "standard deviation", "lowest, N",
        "highest, N"});
   for (const auto& [name, sheet] : bodies) {
     for (const double off : {0.0, 0.25}) {
@@ -317,7 +320,7 @@ void compare_places(int argc, char** argv) {
       double squares = 0;
       for (const double drag : drags) squares += (drag - mean) * (drag - mean);
       const auto [low, high] = std::minmax_element(drags.begin(), drags.end());
-      print_row({name, off == 0 ? "no" : fmt::format("{:g} cells along x, {:g} along y", off, off / 2),
+      print_row({name, off == 0 ? "none" : fmt::format("{:g} cells along x, {:g} along y", off, off / 2),
                  fmt::format("{:.1f}", mean),
                  fmt::format("{:.1f} %", 100 * std::sqrt(squares / (widths - 1)) / mean),
                  fmt::format("{:.1f}", *low), fmt::format("{:.1f}", *high)});
@@ -352,12 +355,13 @@ int main(int argc, char** argv) {
                       : side == "slip"     ? Sides::slip
                                            : Sides::zero_gradient;
   print_table_head(
-      fmt::format("Drag coefficients of bodies 1 m across at 30 m/s, box {:g} x {:g} x {:g} m, {} sides", box,
-                  box, 1.5 * box, side),
+      fmt::format("Drag coefficients of bodies 1 m across at 30 m/s, domain {:g} x {:g} x {:g} m, {} sides",
+                  box, box, 1.5 * box, side),
       argc, argv,
       {"body", "reference", fmt::format("h/d = 1/{}", finest / 4), fmt::format("1/{}", finest / 2),
-       fmt::format("1/{}", finest), "off by", "order", "without the cells", "Cp front, back",
-       "drag of the last 100 iterations moves by"});
+       fmt::format("1/{}", finest), "error", "order of convergence",
+       "extrapolated to zero cell width (error)", "Cp upstream, downstream side",
+       "change of drag in the last 100 iterations"});
   for (const Body& body : all_bodies(place_in(box)))
     if (only.empty() || body.name == only) refine(body, finest, box, turbulence, sides);
 }

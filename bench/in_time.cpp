@@ -156,7 +156,7 @@ int main(int argc, char** argv) {
               theirs = pimple_foam(problem, cloth, length, steps, ranks, folder / "case");
   print_table_head(
       fmt::format(
-          "A square plate set into a stream at once, d/{}: the built-in engine in time and pimpleFoam",
+          "Impulsively started flow about a square plate, cells of d/{}: built-in engine and pimpleFoam",
           across),
       argc, argv, {"", "built-in", "pimpleFoam", "built-in compared with pimpleFoam"});
   const auto steps_of = [](const March& march) { return march.drag.values.size(); };
@@ -168,7 +168,7 @@ int main(int argc, char** argv) {
              fmt::format("{}, {}, {}", problem.grid.cells(), steps_of(theirs), ranks), ""});
   print_row({"area of the faces [m2]", fmt::format("{:.4f}", surface_area(problem.bodies[0].surface)),
              fmt::format("{:.4f}", faces), ""});
-  print_row({"million cell-steps a second", fmt::format("{:.2f}", rate(ours)),
+  print_row({"million cell-steps per second", fmt::format("{:.2f}", rate(ours)),
              fmt::format("{:.3f}", rate(theirs)), fmt::format("{:.1f} times", rate(ours) / rate(theirs))});
   for (const double at : {0.1, 0.25, 0.5, 1.0, 1.5, 2.0}) {
     const std::size_t n = static_cast<std::size_t>(std::lround(at / speed / length)) - 1;

@@ -270,8 +270,10 @@ int main(int argc, char** argv) {
   std::filesystem::create_directories(folder);
   print_table_head(
       "Rigid bodies and inflated canopies: cross-validation with OpenFOAM on a fitted mesh", argc, argv,
-      {"body", "cells across", "drag on its front, built-in", "OpenFOAM", "built-in compared with OpenFOAM",
-       "force imbalance, built-in", "OpenFOAM's", "pressure difference across the cloth, rms deviation",
-       "wake at 1 and 3 widths, rms deviation", "minutes of a core, built-in, OpenFOAM"});
+      {"body", "cells across", "C_D on the frontal area, built-in", "OpenFOAM",
+       "built-in compared with OpenFOAM", "force imbalance, built-in", "force imbalance, OpenFOAM",
+       "pressure difference across the cloth, rms deviation over dynamic pressure",
+       "speed in the wake 1 and 3 widths downstream, rms deviation over stream speed",
+       "minutes on one core, built-in, OpenFOAM"});
   for (const std::string& word : words) judge(folder, body_of(word), across, alone);
 }

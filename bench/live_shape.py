@@ -113,10 +113,10 @@ def main():
         at_once = sum(row[2] for row in rows)
         return f"| {name} | {len(rows)} | {' | '.join(f'{cell:.2f}' for cell in cells)} | {100 * at_once / len(rows):.0f} | {sum(not row[1] for row in rows)} |"
 
-    print("# From a change of a design to its shape in Studio\n")
+    print("# Time from a change of a design to its shape in Studio\n")
     print(f"`python3 bench/live_shape.py build/bin/ripstop {wanted}`: {platform.machine()}, {len(os.sched_getaffinity(0))} cores, load average "
           f"{os.getloadavg()[1]:.1f}, {time.strftime('%-d %B %Y')}. {NODES} nodes of cloth. Times from the change in s, to the first shape and to the "
-          "equilibrium. CPU: processor time of the server and its checks.\n")
+          "equilibrium. CPU: processor time of the server and of the checks it starts, in s.\n")
     print("| family | changes | first shape, median | 95 % | largest | CPU, 95 % | equilibrium, median | 95 % | CPU, 95 % | in equilibrium at once, % | without equilibrium |")
     print("|---|" + 10 * "---|")
     for family in families:

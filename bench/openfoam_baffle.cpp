@@ -86,7 +86,7 @@ void march_in_time(const std::filesystem::path& folder, const FlowProblem& probl
 }
 
 std::string told(double force, double swing) {
-  return swing < 0.02 ? fmt::format("{:.2f}", force) : fmt::format("swings by {:.0f} %", 100 * swing);
+  return swing < 0.02 ? fmt::format("{:.2f}", force) : fmt::format("oscillates by {:.0f} %", 100 * swing);
 }
 
 double built_in(const FlowProblem& problem, double courant) {
@@ -163,10 +163,10 @@ int main(int argc, char** argv) {
   }
   const Way steady[] = {{"simpleFoam", "simpleFoam"}, {"rhoSimpleFoam", "rhoSimpleFoam"}};
   const Way in_time[] = {{"pimpleFoam", "pimpleFoam", 0.5},
-                         {"pimpleFoam, steps a sixteenth as long", "pimpleFoam", 0.5 / 16}};
+                         {"pimpleFoam, a sixteenth of the time step", "pimpleFoam", 0.5 / 16}};
   std::vector<std::string> columns = {"cloth, Pa s/m", "built-in, steady"};
-  for (const Way& way : steady) columns.push_back(way.name + ", box");
-  columns.push_back("built-in, in time");
+  for (const Way& way : steady) columns.push_back(way.name + ", cloth, domain");
+  columns.push_back("built-in, unsteady");
   for (const Way& way : in_time) columns.push_back(way.name);
   print_table_head("A porous plate of six cells with OpenFOAM's porousBafflePressure: drag, N", argc, argv,
                    columns);
@@ -187,6 +187,6 @@ int main(int argc, char** argv) {
     for (const Way& way : in_time) row.push_back(tried(way));
     print_row(row);
   }
-  fmt::print("\n\"Box\": the force on the cloth, and the momentum that the box loses.\n");
+  fmt::print("\n\"Cloth, domain\": force on the cloth, and momentum loss in the domain.\n");
   return 0;
 }

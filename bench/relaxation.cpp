@@ -82,10 +82,11 @@ Arguments arguments(int count, char** values) {
 
 void print_table(const Arguments& given, int argc, char** argv) {
   print_table_head(
-      fmt::format("Equilibrium from flat, {} nodes, {} threads, to {:.0e} of the load", given.nodes,
-                  given.threads, given.tolerance),
+      fmt::format("Equilibrium from the flat canopy, {} nodes, {} threads, residual {:.0e} of the load",
+                  given.nodes, given.threads, given.tolerance),
       argc, argv,
-      {"example", "pressure, Pa", "steps of the whole", "s", "residual", "projected diameter, m"});
+      {"example", "pressure, Pa", "steps of the whole canopy", "wall time, s", "residual",
+       "projected diameter, m"});
   ThreadTeam team(given.threads);
   for (const std::string& name : given.examples) {
     const CanopyMesh mesh = example(name, given.nodes);
@@ -110,8 +111,8 @@ void print_table(const Arguments& given, int argc, char** argv) {
 // alternately on one and on two.
 void print_ratio(const Arguments& given, int argc, char** argv) {
   constexpr int turns = 5;
-  print_table_head(fmt::format("Equilibrium from flat, {} nodes, one thread and two", given.nodes), argc,
-                   argv, {"example", "pressure, Pa", "steps", "1 thread, s", "2 threads, s", "ratio"});
+  print_table_head(fmt::format("Equilibrium from the flat canopy, {} nodes, one thread and two", given.nodes),
+                   argc, argv, {"example", "pressure, Pa", "steps", "1 thread, s", "2 threads, s", "ratio"});
   ThreadTeam alone(1), pair(2);
   for (const std::string& name : given.examples) {
     const CanopyMesh mesh = example(name, given.nodes);

@@ -106,9 +106,10 @@ int main(int argc, char** argv) {
   if (!in_time) words.erase(words.begin());
   if (words.empty())
     return fmt::print("bench_rigid [steady] CELLS [sphere|cube|cylinder|long|nosed]...\n"), 2;
-  print_table_head(
-      fmt::format("Closed bodies alone, {} cells across: {}", words[0], in_time ? "in time, DES" : "steady"),
-      argc, argv, {"body", "C_D", "standard error, %", "published", "difference", "force imbalance, %"});
+  print_table_head(fmt::format("Closed bodies in free air, {} cells across: {}", words[0],
+                               in_time ? "unsteady, DES" : "steady"),
+                   argc, argv,
+                   {"body", "C_D", "standard error, %", "published", "difference", "force imbalance, %"});
   for (const Body& body : bodies())
     if (words.size() == 1 || std::find(words.begin() + 1, words.end(), body.name) != words.end()) try {
         drag(body, std::atoi(words[0].c_str()), in_time);

@@ -51,9 +51,11 @@ int main(int argc, char** argv) {
   }
   std::vector<std::string> columns = {"h/d", "a, Pa s/m"};
   for (const Vec3& s : shifts) columns.push_back(fmt::format("{:g}, {:g}, {:g}", s.x, s.y, s.z));
-  columns.insert(columns.end(), {"mean", "spread"});
+  columns.insert(columns.end(), {"mean", "range over mean"});
   print_table_head(
-      fmt::format("Drag in N of a rigid disk-gap-band of {:g} m at 30 m/s, shifted by parts of a cell", d),
+      fmt::format(
+          "Drag in N of a rigid disk-gap-band of {:g} m at 30 m/s by its displacement in cells along x, y, z",
+          d),
       argc, argv, columns);
   for (const auto& [a, b] : {std::pair{66.0, 37.45}, std::pair{8169.3, 0.0}}) {
     std::vector<double> means;

@@ -68,10 +68,10 @@ def main():
         shutil.copy(case, folder / f"{case.parent.name}.toml")
     page = Page(folder)
     cases = [(path.name, lengths(page.studio.get("/api/case", file=path.name)[1])) for path in sorted(folder.glob("*.toml"))]
-    print("# Memory of Studio over changes\n")
+    print("# Memory of Studio over many changes of a design\n")
     print(f"`python3 bench/studio_memory.py build/bin/ripstop {MINUTES:g} {INTERVAL:g}`: {len(cases)} families, a change every {INTERVAL:g} s, load average "
-          f"{os.getloadavg()[1]:.1f}, {time.strftime('%-d %B %Y')}. Memory in MiB.\n")
-    print("| minute | changes | without a shape in time | server | scripts of the page | nodes of the page | geometries of its shape |\n|---|---|---|---|---|---|---|")
+          f"{os.getloadavg()[1]:.1f}, {time.strftime('%-d %B %Y')}. Memory of server and scripts in MiB.\n")
+    print("| minute | changes | changes without a shape in time | server | scripts of the page | DOM nodes of the page | geometries of its 3D view |\n|---|---|---|---|---|---|---|")
     rows = 0
     while time.time() - page.begin < 60 * MINUTES:
         file, keys = cases[page.changes % len(cases)]

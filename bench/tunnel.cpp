@@ -104,10 +104,10 @@ void empty_jet(int across, double outside) {
 }
 
 void empty_jets(int finest, int argc, char** argv) {
-  print_table_head(
-      "An empty open jet, 1 m across, 20 m/s, box of 8 x 8 x 12 m", argc, argv,
-      {"cells across the nozzle", "speed outside", "core, nozzle widths", "growth of the vorticity thickness",
-       "of the width from 10 to 90 %", "momentum lost in the box", "residual"});
+  print_table_head("Empty open jet, nozzle 1 m wide, 20 m/s, domain of 8 x 8 x 12 m", argc, argv,
+                   {"cells across the nozzle", "speed outside", "length of the core, nozzle widths",
+                    "growth rate of the vorticity thickness", "growth rate of the width from 10 to 90 %",
+                    "momentum lost in the domain", "residual"});
   for (const auto& [across, outside] : {std::pair{finest / 2, 0.01}, std::pair{finest / 2, 0.02},
                                         std::pair{finest / 2, 0.05}, std::pair{finest, 0.02}})
     empty_jet(across, outside);
@@ -217,9 +217,10 @@ void one_disk(const std::string& name, double loss, int across, std::vector<Plot
 }
 
 void disks(int across, const std::string& file, int argc, char** argv) {
-  print_table_head(fmt::format("A disk of 1 m in tunnels, 20 m/s, cells of 1/{} m", across), argc, argv,
-                   {"disk", "air", "blockage", "drag coefficient", "against free air", "theory", "Cp behind",
-                    "speed 1 m before, on the axis", "momentum of the box against the drag"});
+  print_table_head(
+      fmt::format("A disk of 1 m in tunnels, 20 m/s, cells of 1/{} m", across), argc, argv,
+      {"disk", "air", "blockage", "drag coefficient", "change from free air", "theory", "base Cp",
+       "speed 1 m upstream on the axis over tunnel speed", "momentum deficit over drag - 1"});
   std::vector<PlotSeries> series;
   one_disk("K = 2", 2, across, series);
   one_disk("impermeable", 0, across, series);
@@ -270,11 +271,11 @@ DragInTime drag_in_time(const std::vector<Triangle>& shape, double resistance, c
 }
 
 void edges(const std::string& surface, double resistance, int argc, char** argv) {
-  print_table_head(fmt::format("A canopy's shape, held, in time in jets from an octagon of {:g} m, {:g} m/s",
+  print_table_head(fmt::format("Rigid canopy, unsteady, in jets from an octagonal nozzle of {:g} m, {:g} m/s",
                                octagon_width, speed),
                    argc, argv,
-                   {"nozzle to skirt, m", "edge, m", "first cells behind the nozzle, m", "drag, N",
-                    "standard error, N", "against free air", "swing of the drag (rms)"});
+                   {"nozzle to skirt, m", "edge, m", "first cells downstream of the nozzle, m", "drag, N",
+                    "standard error, N", "change from free air", "fluctuation of the drag (rms)"});
   const std::vector<Triangle> shape = read_stl(surface);
   double free = 0;
   for (const JetInTime& jet : std::array<JetInTime, 9>{{{},

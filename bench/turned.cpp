@@ -106,12 +106,12 @@ void turn(const std::vector<Body>& bodies, const std::vector<Direction>& directi
   std::vector<std::string> columns = {"body", "angle, deg", "azimuth, deg"};
   for (const int n : across) {
     columns.push_back(fmt::format("C_D, {} cells", n));
-    columns.push_back(fmt::format("over that along z, {} cells", n));
+    columns.push_back(fmt::format("change from the stream along z, {} cells", n));
   }
-  columns.insert(columns.end(),
-                 {"order of the difference", "force across the stream, % of C_D", "momentum balance, %"});
-  print_table_head("Bodies turned with the stream: far field on all six faces, steady, 20 m/s", argc, argv,
-                   columns);
+  columns.insert(columns.end(), {"order of convergence of the change", "force across the stream, % of C_D",
+                                 "momentum balance on the finest grid, %"});
+  print_table_head("Drag of bodies by direction of the stream: far field on all six faces, steady, 20 m/s",
+                   argc, argv, columns);
   for (const Body& body : bodies) {
     std::vector<double> along_z;
     for (const Direction direction : directions) {

@@ -54,9 +54,9 @@ def main():
                 rows.append([f"{nx} x {ny} x {nz}", str(n), f"{nx * ny * nz / n:,.0f}", f"{best[0]:.2f}", f"{alone[0] / best[0]:.2f}",
                              f"{best[1]:.2f}", f"{alone[1] / best[1]:.2f}"])
                 print(" | ".join(rows[-1]), flush=True)
-        lines = [f"The least of {options.repeat}, {ITERATIONS} iterations each, on {cores} cores. The load average was {min(load):.1f} to {max(load):.1f} as they "
-                 f"began, these runs included: above {cores} other work had a share, and the processor's time says more than the clock's.", "",
-                 *tables.table(["cells", "ranks", "cells a rank", "processor s an iteration and rank", "ratio", "clock s an iteration", "ratio"], rows)]
+        lines = [f"Shortest of {options.repeat} runs of {ITERATIONS} iterations each, on {cores} cores. The load average at the start was {min(load):.1f} to "
+                 f"{max(load):.1f}, including these runs. Above {cores}, other work shared the cores; the processor time is then more meaningful than the wall time.", "",
+                 *tables.table(["cells", "ranks", "cells per rank", "processor time per iteration and rank, s", "speed-up", "wall time per iteration, s", "speed-up"], rows)]
         tables.write("ranks", "OpenFOAM on several ranks", "make scaling", tables.runs_below(work), lines)
 
 

@@ -113,7 +113,7 @@ def near_the_limit(t):
     unlike = differences(out, whole)
     if "the job is queued again" not in log or restarts != "1":
         unlike.append(f"not requeued: {restarts} restarts")
-    t.tell("`steady` that meets its time limit after a checkpoint: requeued, goes on", f"{t.states(job)}, {restarts} restart", unlike)
+    t.tell("`steady` that meets its time limit after a checkpoint: requeued, continues", f"{t.states(job)}, {restarts} restart", unlike)
 
 
 def ranks_on_nodes(t, name, arguments, what):
@@ -184,10 +184,10 @@ def main():
     failed = [row for row in t.rows if row[2] != "the same"]
     if not options.trials:
         today = datetime.date.today()
-        lines = ["# Batch scripts through a real Slurm", "",
+        lines = ["# Batch scripts executed by Slurm", "",
                  f"`make test-slurm`: {version}, two nodes on one machine; {today.day} {today:%B %Y}, {time.monotonic() - begin:.0f} s.", "",
-                 "Compared: every file of the folder with that of the same command run here, but for times of day and wall-clock figures.", "",
-                 *tables.table(["what", "jobs", "files"], t.rows)]
+                 "Every file of the folder is compared with that of the same command without Slurm, except for times.", "",
+                 *tables.table(["command", "jobs", "files"], t.rows)]
         (tables.ROOT / "docs/tables/slurm.md").write_text("\n".join(lines).rstrip("\n") + "\n")
     if not options.keep and not failed:
         shutil.rmtree(work)

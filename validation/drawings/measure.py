@@ -132,11 +132,11 @@ def main():
                         rows.append([case, dxf.stem, unit, program, f"{wanted[0]:.2f} x {wanted[1]:.2f}", f"{seen[0]:.2f} x {seen[1]:.2f}", f"{error:.3f}"])
     versions = subprocess.run(["dpkg-query", "-W", "-f=${Package} ${Version}\n", "librecad", "inkscape"], capture_output=True, text=True,
                               check=False).stdout.splitlines()
-    lines = [f"Width and height that other programs measure of the files of `ripstop pattern` ({'; '.join(versions)}). Inkscape agrees within "
-             f"{INKSCAPE_MM} mm; in a PDF the mitres of inclined lines add up to half a line of {OUTLINE} mm. "
-             f"The print of LibreCAD agrees within {100 * LIBRECAD:g} %: for drawings in millimetres it is 0.015 % short itself.", "",
-             *tables.table(["design", "piece", "unit of the file", "measured by", "wanted, mm", "measured, mm", "largest difference, mm"], rows)]
-    tables.write("drawings", "Cutting patterns in other programs", "make test-drawings", tables.here(), lines)
+    lines = [f"Width and height that other programs measure in the files of `ripstop pattern` ({'; '.join(versions)}). Inkscape agrees within "
+             f"{INKSCAPE_MM} mm; in a PDF the corners of the drawn line add up to half the line width of {OUTLINE} mm. "
+             f"The print of LibreCAD agrees within {100 * LIBRECAD:g} %: it is 0.015 % too small for drawings in millimetres.", "",
+             *tables.table(["design", "piece", "unit of the file", "measured by", "nominal, mm", "measured, mm", "largest difference, mm"], rows)]
+    tables.write("drawings", "Cutting patterns measured in other programs", "make test-drawings", tables.here(), lines)
     print("\n".join(lines))
     return 1 if wrong else 0
 

@@ -88,7 +88,7 @@ def in_time_table(options, results):
         inside = "yes" if abs(off) * low <= error else f"{100 * off:+.0f} %"
         rows.append([name, f"{per_newton * steady:.3f}", f"{r['drag_coefficient']:.3f} +- {error:.3f}", printed_range(r), inside,
                      f"{r['drag_n']:.1f}", str(r["coupling_iterations"]), f"{r['wall_time_s']:.0f}"])
-    return tables.table(["example", "steady", "drag coefficient in time, standard error", "Knacke, in descent", "inside", "drag N",
+    return tables.table(["example", "steady", "drag coefficient, unsteady, standard error", "Knacke, in descent", "within the range, or difference", "drag N",
                          "iterations", "wall s"], rows)
 
 
@@ -122,8 +122,8 @@ def loads_table(options, results):
                      f"{r['max_line_tension_n']:.1f}",
                      f"{median_of(folder, 'cp_inside'):.2f}", f"{median_of(folder, 'cp_outside'):.2f}", remainder,
                      f"{100 * abs(moment):.2f}", f"{100 * r['section_gap']:.1f}", count])
-    return tables.table(["example", "load", "drag N", "projected diameter m", "skirt m", "highest line tension N",
-                         "Cp inside", "Cp outside", "remainder %", "axial moment %", "section gap %",
+    return tables.table(["example", "load", "drag N", "projected diameter m", "skirt diameter m", "maximum line tension N",
+                         "Cp inside", "Cp outside", "residual traction %", "axial moment %", "section imbalance %",
                          "coupling iterations"], rows)
 
 
@@ -182,11 +182,11 @@ def openings(options):
                      f"{pull:.0f}, {aside:.0f} deg", f"{r['low_pass_peak_load_n'] / pull:.2f}",
                      f"{r['knacke_coefficient']:g}", *over_whole_area(r, known, handbook["nominal_diameter_m"]), f"{way:.1f}",
                      f"{handbook['filling_constant']:g}", f"{100 * r['pierced_edges']:.1f}"])
-    table = tables.table(["example", "peak at 100 Hz N", "at ms", "last fifth, axial N", "resultant N, inclination",
-                          "peak over the resultant", "Knacke C_x", "peak over q S0", "Knacke C_x C_D", "distance to the peak in diameters",
-                          "handbook's filling distance, flying", "edges that pierce cloth %"], rows)
+    table = tables.table(["example", "peak at 100 Hz N", "at ms", "mean axial load of the last fifth N", "resultant N, inclination",
+                          "peak over the resultant", "Knacke C_x", "peak over q S0", "Knacke C_x C_D", "distance to the peak in nominal diameters",
+                          "filling distance of the handbook in nominal diameters", "edges that pierce cloth %"], rows)
     print("\n".join(table))
-    foot = ["The handbook's filling distance is that of a payload that flies, in nominal diameters, as `ripstop load` takes it."]
+    foot = ["The filling distance of the handbook is that of `ripstop load`, for a payload in free flight (finite mass)."]
     if len(rows) == len(in_handbook()) and not options.set:
         tables.write("families-openings", "Coupled inflation of the families", "make validate-openings", made, table + foot)
 
@@ -225,9 +225,9 @@ def main():
     if None in results.values():
         sys.exit("a run failed: no table is written")
     made = [run for name, load in results for run in tables.runs_below(folder_of(options, name, load))]
-    tables.write("families", "Steady drag of every family's example", "make validate-families", made, families_table(results))
+    tables.write("families", "Steady drag of the example of every family", "make validate-families", made, families_table(results))
     shipped.write()
-    foot = ["Cp: medians along the gore (`pressure.csv`). Axial moment: over drag times half the projected diameter."]
+    foot = ["Cp: medians along the gore (`pressure.csv`). Residual traction: share of the pressure. Axial moment: share of drag times half the projected diameter."]
     tables.write("loads", "Load of the flow compared with a uniform load", "make validate-families", made, loads + foot)
 
 

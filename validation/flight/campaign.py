@@ -190,19 +190,19 @@ def families_rows(results):
     return merged("Families", rows, keys=2)
 
 
-FAMILIES_HEAD = ["family", "cloth CFM", "flight s", "rate of descent m/s", "C_D0 on the axis", "C_D0 in descent", "Knacke C_D0", "agreement",
-                 "glide ratio", "mean oscillation deg", "Knacke deg", "kind", "largest deg", "period s", "half-swings"]
+FAMILIES_HEAD = ["family", "cloth CFM", "flight s", "rate of descent m/s", "C_D0 on the axis", "C_D0 in descent", "Knacke C_D0", "difference from Knacke's range",
+                 "glide ratio", "mean oscillation deg", "Knacke deg", "kind of oscillation", "largest angle deg", "period s", "half-swings"]
 
 
 def count_line(rows):
     """How many flights agree, of those for which a value is known."""
-    off = [row[FAMILIES_HEAD.index("agreement")] for row in rows]
+    off = [row[FAMILIES_HEAD.index("difference from Knacke's range")] for row in rows]
     close = sum(cell == "inside" or abs(float(cell.strip("+ %"))) <= 5 for cell in off if cell)
-    kinds = [row[FAMILIES_HEAD.index("kind")] for row in rows]
+    kinds = [row[FAMILIES_HEAD.index("kind of oscillation")] for row in rows]
     known = [kind for kind in kinds if "known" in kind]
     right = sum(kind.endswith("as known") for kind in known)
-    return (f"C_D0 in descent inside of Knacke's range or less than 5 % outside: {close} of {sum(map(bool, off))} flights. "
-            f"Kind of oscillation as known: {right} of {len(known)}.")
+    return (f"C_D0 in descent is within Knacke's range or less than 5 % outside in {close} of {sum(map(bool, off))} flights. "
+            f"The kind of oscillation is as known in {right} of {len(known)} flights.")
 
 
 def read_path(folder):
@@ -244,7 +244,7 @@ def balance_table(options, results):
         rows.append([name, f"{mean['angle']:.0f}", f"{r['axial_drag_coefficient']:.3f}", f"{mean['along']:.3f}",
                      f"{mean['ratio']:.3f}", f"{whole:.3f}", f"{mean['mouth']:.2f}", f"{r['start_up_time_s']:.0f}", f"{100 * r['energy_residual']:.3f}", f"{100 * r['momentum_residual']:.3f}", f"{r['load_factor']:.2f}"])
     return tables.table(["flight", "mean angle of attack deg", "C_T on the axis", "C_T in flight", "(V / V_v)^2",
-                         f"C_D0 from {BEGIN_S} s on", "mouth area / start", "start-up s", "energy residual %", "momentum residual %", "load factor"], merged("Force balance", rows))
+                         f"C_D0 from {BEGIN_S} s on", "mouth area over that at the start", "start-up s", "energy residual %", "momentum residual %", "load factor"], merged("Force balance", rows))
 
 
 def study_table(section, head, flights, results):
@@ -264,14 +264,14 @@ def write_tables(options):
     if not results:
         sys.exit("no flight is finished: no table is written")
     conditions = (f"Payload {PAYLOAD_KG:g} kg, released at {RELEASED_AT_DEG} degrees, nominal diameter 1.76 m, 1.2 kg/m3, still air, cloth of "
-                  "100 CFM (MIL-C-7020 type I). C_D0 on the axis: of the steady flow in which each flight begins.")
+                  "100 CFM (MIL-C-7020 type I). C_D0 on the axis: coefficient in the steady flow from which each flight starts.")
     families = families_rows(results)
     lines = [conditions, "", *flown_on(options, results), "## Families", "", *tables.table(FAMILIES_HEAD, families), count_line(families), "",
-             f"Kind: steady below {STEADY_BELOW} degrees in the mean of the peaks, swinging from {SWINGING_FROM} degrees. Knacke's "
-             "coefficients: Tables 5-1 and 5-2 as transcribed. His angles: of the slotted canopies from a reprint read by character "
-             "recognition; of the others from memory.", "",
+             f"Half-swing: half a period. Mean oscillation: mean of the largest angles from the vertical in the half-swings. Kind: steady if this mean is "
+             f"below {STEADY_BELOW} degrees, swinging from {SWINGING_FROM} degrees. Knacke's coefficients are those of a transcription of his Tables 5-1 and 5-2. "
+             "His angles of slotted canopies are from a reprint read by character recognition; those of the others are from memory.", "",
              "## Force balance", "", *balance_table(options, results),
-             f"From {BEGIN_S} s on. C_T: along the line from payload to skirt, on the speed V of the canopy through the air. The "
+             f"Means from {BEGIN_S} s on. C_T: force along the line from payload to skirt, over the dynamic pressure of the speed V of the canopy through the air. The "
              "coefficient in descent is about C_T times the square of V over the rate of descent V_v.", "",
              "## Vent", "", *study_table("Vent", "vent, % of D0", VENTS.items(), results),
              "## Cloth", "", *study_table("Cloth", "flight", CLOTHS.items(), results),

@@ -54,8 +54,8 @@ def write_page(options):
         shutil.copy(folder / "stability.svg", ROOT / "docs/tables" / f"stability-{family}.svg")
     if not rows:
         sys.exit("no curve is finished: no page is written")
-    lines = [f"Cases of validation/flight at 5 m/s, cloth of 100 CFM, {CELLS_ACROSS} cells across the projected diameter, rigid shape of the "
-             "steady run on the axis. +-: standard error of the mean over time.", "",
+    lines = [f"Cases of validation/flight at 5 m/s, with cloth of 100 CFM and {CELLS_ACROSS} cells across the projected diameter. The shape is rigid and that of "
+             "the steady run on the axis. +-: standard error of the mean over time.", "",
              *tables.table(["family", "angle of attack deg", "C_T", "C_N", "C_m"], rows), "## Trim angles", "",
              *tables.table(["family", "trim angles deg"], trims)]
     tables.write("stability", "Static coefficients over the angle of attack", "make validate-stability", made, lines)

@@ -149,15 +149,15 @@ def report(campaign, by_runs):
               f"{float(r['projected_diameter_m']):.3f}",
               str(r["coupling_iterations"]) + ("" if r["converged"] == "true" else ", not converged"),
               f"{float(r['change_percent']):+.1f}" if r["detail"] else ""] for found in by_runs for r in found]
-    text = tables.table(["runs", "detail", "unchanged case", "variation", "range from", "geometric porosity %",
+    text = tables.table(["runs", "detail", "unchanged case", "variation", "source of the range", "geometric porosity %",
                          "drag area m2", "projected diameter m", "coupling iterations", "change of drag area %"], lines)
-    text += ["Range of the drag that the details allow together (grid alignment is not one of them), and the mean error "
-             "of the frozen unsteady predictions of ADEPT with the drag changed by it:", ""]
+    text += ["Range of the drag due to all details together (without grid alignment), and the mean error of the frozen unsteady "
+             "predictions of ADEPT with the drag changed by this range:", ""]
     text += tables.table(["changes of", "details combined as", "change of drag %", "error, nominal speeds %",
-                          "with the range %", "error, measured speeds %", "with the range %"],
+                          "error with the changed drag, nominal %", "error, measured speeds %", "error with the changed drag, measured %"],
                          [*interval_lines(by_runs[0], by_runs[0][0]["runs"]),
                           *interval_lines(smallest(by_runs), "the runs with the smallest change")])
-    tables.write("ojf-adept", "ADEPT: drag against undocumented details", "make validate-ojf STAGES=adept",
+    tables.write("ojf-adept", "Effect of undocumented details on the drag of ADEPT", "make validate-ojf STAGES=adept",
                  tables.runs_below(campaign.runs / "adept-details"), text)
 
 

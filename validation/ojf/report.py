@@ -94,11 +94,11 @@ def jet(runs):
             if model is in_time and basis == "nominal":
                 errors.append(float(row["drag_n"]) / measured - 1)
         lines.append(line)
-    head = ["speed", "nominal m/s", "measured N", *(["free air, steady N", "error %"] if free else []), "jet, steady N",
-            "error %", "jet, in time N, standard error", "error %"]
+    head = ["speed basis", "nominal m/s", "measured N", *(["free air, steady N", "error %"] if free else []), "jet, steady N",
+            "error %", "jet, unsteady N, standard error", "error %"]
     text = table(head, lines) if lines else []
     if errors:
-        text += [f"In time on the nominal speeds: mean error {100 * sum(errors) / len(errors):+.1f} %, mean of its size "
+        text += [f"Unsteady, on the nominal speeds: mean error {100 * sum(errors) / len(errors):+.1f} %, mean absolute error "
                      f"{100 * sum(map(abs, errors)) / len(errors):.1f} %."]
     return text
 
@@ -129,7 +129,7 @@ def reproduction(runs):
                       f"{100 * (foam['drag_n'] / known['drag_n'] - 1):+.1f}", f"{known['printed_nonlinear_n']:.1f}",
                       f"{100 * (known['printed_nonlinear_n'] / known['drag_n'] - 1):+.1f}", str(foam["coupling_iterations"]),
                       f"{foam['wall_time_s']:.0f}"])
-    return table(["basis", "fabric", "nominal m/s", "computed N", "measured N", "error %", "[NFM] N", "its error %",
+    return table(["speed basis", "cloth", "nominal m/s", "computed N", "measured N", "error %", "[NFM] N", "error of [NFM] %",
                   "iterations", "wall s"], lines) if lines else []
 
 
@@ -137,7 +137,7 @@ def predictions(runs):
     lines = [[r["parachute"], r["speed_basis"], r["nominal_m_s"], r["porosity_model"], r["fabric_model"],
               f"{float(r['drag_n']):.1f}", r["standard_error_n"], r["uncertainty_n"], f"{float(r['drag_area_m2']):.4f}",
               r["coupling_iterations"], f"{float(r['wall_time_s']):.0f}"] for r in rows(HERE / "predictions.csv") if r["parachute"] != "stratos-iv"]
-    return table(["parachute", "basis", "nominal m/s", "porosity", "fabric", "drag N", "standard error N", "all uncertainties N",
+    return table(["parachute", "speed basis", "nominal m/s", "model", "cloth", "drag N", "standard error N", "stated uncertainty N",
                   "drag area m2", "iterations", "wall s"], lines) if lines else []
 
 
@@ -158,15 +158,16 @@ def uncertainty(runs):
     done = rows(HERE / "uncertainty.csv")
     if not done:
         return []
-    text = table(["porosity", "parachute", "source", "variation", "frozen %", "Stratos IV %", "ratio %"],
+    text = table(["model", "parachute", "source", "variation", "frozen %", "Stratos IV %", "ratio %"],
                  [list(r.values()) for r in done])
-    text += ["Largest of each source (porosity, and all of specified-jet: frozen; all others: ratio), and their root of sum of squares, %:", ""]
+    text += ["Largest change of each source in %: of the column *frozen* for the source porosity and for all of specified-jet, else of the column "
+             "*ratio*. *Together* is the root of the sum of their squares:", ""]
     sources = list(dict.fromkeys(r["source"] for r in done))
     lines = []
     for (model, parachute), largest in largest_of_each_source(done).items():
         lines.append([model, parachute, *(f"{largest[s]:.1f}" if s in largest else "" for s in sources),
                       f"{math.hypot(*largest.values()):.1f}", max(largest, key=largest.get)])
-    return text + table(["porosity", "parachute", *sources, "together", "dominates"], lines)
+    return text + table(["model", "parachute", *sources, "together", "largest source"], lines)
 
 
 def comparison(runs):
@@ -187,11 +188,11 @@ def images(runs):
     result = load(runs / "images/result.json")
     if not result:
         return []
-    text = [f"Camera at {result['camera_distance_m']:.3f} m from the three diameters, which it meets within "
-            f"{1000 * result['root_mean_square_m']:.1f} mm rms.", ""]
+    text = [f"Camera distance {result['camera_distance_m']:.3f} m, fitted to the three diameters; rms residual "
+            f"{1000 * result['root_mean_square_m']:.1f} mm.", ""]
     lines = [[s["name"], f"{s['apparent_m']:.4f}", f"{s['corrected_m']:.4f}", f"{s['known_m']:.4f}", f"{s['computed_m']:.4f}",
               f"{100 * (s['computed_m'] / s['known_m'] - 1):+.1f}"] for s in result["diameters"] + result["lengths"]]
-    return text + table(["m", "apparent", "corrected", "printed", "computed", "computed / printed - 1, %"], lines)
+    return text + table(["length, m", "apparent", "corrected", "printed", "computed", "computed / printed - 1, %"], lines)
 
 
 # File in docs/tables, its title, stage of the campaign that makes it, and the folders of its runs.
@@ -199,7 +200,7 @@ SECTIONS = [
     (calibration, "calibration", "Porosity calibrated on Stratos IV", "calibrate", ["paper/calibration"]),
     (reproduction, "reproduction", "Stratos IV with the calibrated cloth", "reproduce openfoam",
      ["paper/stratos-iv-nominal", "paper/stratos-iv-measured", "openfoam-30"]),
-    (predictions, "predictions", "WALRUS and ADEPT, predicted", "predict sheet sheet-calibrated jet unsteady-jet",
+    (predictions, "predictions", "Predicted drag of WALRUS and ADEPT", "predict sheet sheet-calibrated jet unsteady-jet",
      [f"{model}/{parachute}-{basis}"
       for model in ("paper", "sheet-calibrated", "sheet-specified", "specified-jet", "specified-unsteady-jet")
       for parachute in ("walrus", "adept") for basis in ("nominal", "measured")]),
@@ -209,7 +210,7 @@ SECTIONS = [
     (jet, "jet", "Stratos IV with the specified permeability in the open jet", "jet unsteady-jet",
      [f"{model}/stratos-iv-{basis}" for model in ("specified-free", "specified-jet", "specified-unsteady-jet")
       for basis in ("nominal", "measured")]),
-    (sheet_calibration, "sheet-calibration", "The sheet's law calibrated on Stratos IV", "sheet-calibrated",
+    (sheet_calibration, "sheet-calibration", "Pressure drop of the porous sheet calibrated on Stratos IV", "sheet-calibrated",
      ["sheet-calibrated/permeabilities", "sheet-calibrated/gammas"]),
     (comparison, "comparison", "Nonlinear and linear model at 30 m/s", "compare", ["compare"]),
     (images, "images", "Shape of Stratos IV compared with photogrammetry", "reproduce", ["paper/stratos-iv-nominal"]),

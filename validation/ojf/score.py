@@ -208,9 +208,9 @@ def scores(rows, known):
 
 
 def frozen_lines():
-    text = ["# Blind predictions of WALRUS and ADEPT against the measurements", "",
+    text = ["# Blind predictions of WALRUS and ADEPT compared with the measurements", "",
             f"`make validate-ojf STAGES=score`, from predictions frozen on {FROZEN_DAYS}, "
-            "before a measurement was known:", ""]
+            "before any measurement of the two parachutes was known:", ""]
     folder = "../../validation/ojf"
     text += table(["frozen file", "made by commit", "SHA-256"],
                   [[f"[{name}]({folder}/frozen/{name})", commit[:7], digest]
@@ -265,7 +265,7 @@ def report():
              "measured drag areas.", "", *table(head, constant_lines(known))]
     head = ["model", "parachute", "speed basis", "mean computed A, m2", "mean computed A / C - 1, %",
             "first to last speed, %", "largest over smallest, %"]
-    text += ["The computed drag areas against C:", "", *table(head, bias_lines(rows, known))]
+    text += ["The computed drag areas compared with C:", "", *table(head, bias_lines(rows, known))]
     (tables.ROOT / "docs/tables/ojf-score.md").write_text("\n".join(text).rstrip("\n") + "\n")
     picture = tables.ROOT / "docs/validation/blind-test.svg"
     picture.parent.mkdir(exist_ok=True)

@@ -85,7 +85,7 @@ def timed(rows):
         table.append(one)
     heads = ["cells across the disk"]
     for engine in ("built-in", "OpenFOAM"):
-        heads += [f"{engine}, drag on its front", "compared with its finest", "minutes of a core"]
+        heads += [f"{engine}, C_D", "compared with its finest grid", "minutes on one core"]
     return ["\n## Time to the same accuracy\n\n", *(line + "\n" for line in tables.table(heads, table))]
 
 

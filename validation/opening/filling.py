@@ -35,7 +35,7 @@ ROWS = {
     "cloth-3": ("cloth of 3 CFM", {"parachute.canopy_material": "pia-c-44378-type-iv"}),
     "mass-0.5": ("0.5 kg", {"payload.mass_kg": "0.5"}),
     "mass-10": ("10 kg", {"payload.mass_kg": "10"}),
-    "held": ("held in the stream", HELD),
+    "held": ("fixed in the stream", HELD),
     "speed-15": ("15 m/s", {"flow.speed_m_s": "15"}),
     "speed-40": ("40 m/s", {"flow.speed_m_s": "40"}),
     "cells-64": ("64 x 64 x 80 cells", {"flow.cells": "[64,64,80]"}),
@@ -131,8 +131,8 @@ def main():
         if result:
             done[name] = measures(options, name, result)
     rows = [row_of(name, m, done.get("held")) for name, m in done.items()]
-    table = tables.table(["changed", "peak at 100 Hz N", "distance to the peak / D0", "to half of the largest area / D0",
-                          "filled / D0", "peak over q S0", "X_1", "energy residual %"], rows)
+    table = tables.table(["changed", "peak at 100 Hz N", "distance to the peak / D0", "distance to half of the largest area / D0",
+                          "filling distance / D0", "peak over q S0", "X_1", "energy residual %"], rows)
     print("\n".join(table))
     if set(done) != set(ROWS):
         return
@@ -140,10 +140,10 @@ def main():
     head = [f"Coupled openings of the canopy of {DIAMETER:g} m with a payload of 2.4 kg at 20 m/s on 48 x 48 x 60 cells; one parameter is "
             "changed in each row ([description](../validation/inflation.md#filling)). D0: nominal diameter. Distances are from the "
             "start of the coupled opening.", ""]
-    foot = ["Filled: the projected area first reaches its mean over the last fifth; not settled: the area still grows there, "
+    foot = ["Filling distance: until the projected area first reaches its mean over the last fifth. Not settled: the area still grows there, "
             "or is less than twice that of the folded canopy. "
-            "Held in the stream: constant speed. q S0: dynamic pressure at the start times nominal area. "
-            "X_1: peak over q S0, divided by that of the canopy held in the stream at 20 m/s.", "",
+            "Fixed in the stream: constant speed (infinite mass). q S0: dynamic pressure at the start times nominal area. "
+            "X_1: peak over q S0, divided by that of the canopy fixed in the stream at 20 m/s.", "",
             "![Projected area over the distance](filling.svg)"]
     tables.write("filling", "Filling of a flat circular canopy", "make validate-filling", made, head + table + foot)
     plot(options, done)

@@ -51,11 +51,11 @@ def main():
         for name in (path.split("/")[0], "all"):
             rooms[name][0] += run
             rooms[name][1] += all_of
-    head = ["", "lines", "run", "share"]
+    head = ["room or file", "lines", "executed", "share"]
     in_all = rooms.pop("all")
     lines = tables.table(head, [*(row(name, *rooms[name]) for name in sorted(rooms)), row("all", *in_all)])
     lines += ["## By file", "", *tables.table(head, rows)]
-    tables.write("coverage", "Lines of the sources that the tests run, without OpenFOAM's", "make coverage",
+    tables.write("coverage", "Lines of the sources that the tests execute, without those of OpenFOAM", "make coverage",
                  tables.here(), lines)
     print(f"{100 * in_all[0] / in_all[1]:.1f} % of {in_all[1]} lines")
 

@@ -99,13 +99,13 @@ def write_table(runs, still_open):
     executions, fast, minutes, found, left = (sum(int(row[column].replace(",", "")) for row in rows) for column in (1, 2, 3, 7, 8))
     rows.append(["**all**", f"{executions:,}", f"{fast:,}", str(minutes), "", "", "", str(found), str(left), ""])
     commits = collections.Counter(run["commit"] for run in runs)
-    lines = [f"Any bytes, up to {LONGEST // 1024} kB, grown from the corpus by the code that they reach, under the address and undefined-behaviour "
+    lines = [f"Inputs of arbitrary bytes, up to {LONGEST // 1024} kB, mutated from the corpus by coverage, under the address and undefined-behaviour "
              f"sanitizers. A failing input crashes the reader, takes over {SLOWEST_S} s or over {MEMORY_MB} MB (including the sanitizers), or throws "
              "anything but an `Error`. Fast executions (`make fuzz FAST=1 LONGEST=256`) have the undefined-behaviour sanitizer and the "
              "assertions of the standard library, but no address sanitizer. Found: calls with a failing input. Open: inputs that still fail after the last call. "
              "Last calls by commit: " + ", ".join(f"{commit} {count}" for commit, count in sorted(commits.items())) + ".", "",
              *tables.table(HEAD, rows)]
-    tables.write("fuzz", "Readers given any bytes", "make fuzz", [{"started": run["day"], "processor": tables.machine()} for run in runs], lines)
+    tables.write("fuzz", "Fuzzing of the file readers", "make fuzz", [{"started": run["day"], "processor": tables.machine()} for run in runs], lines)
     print(f"{executions:,} executions in all")
 
 

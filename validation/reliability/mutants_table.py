@@ -46,13 +46,13 @@ def write_one(name, title, mutants, dropped, log, command, of_what):
         text = " ".join(text.split()).replace("|", "\\|")
         return f"`{text if len(text) < 90 else text[:87] + '...'}`"
 
-    lines = [f"{len(mutants)} {of_what}, {total['dropped']} of them do not compile, {total['to do']} not run yet. Python's and the browser's "
-             "tests are left out, and those that take longer than the command's limit.", ""]
-    lines += tables.table(["room", "run", "equivalent", "harmless", "left", "caught", "of those left"],
+    lines = [f"{len(mutants)} {of_what}, {total['dropped']} of them do not compile, {total['to do']} were not run. The tests of Python and "
+             "of the browser, and tests that take longer than the limit of the command, were not used.", ""]
+    lines += tables.table(["room", "run", "equivalent", "harmless", "neither", "detected", "detected, share of neither"],
                           [*(row(room, rows[room]) for room in sorted(rows)), row("all", total)])
-    lines += [f"{unmet} survivors that are not judged equivalent or harmless were not met by all tests that come by them.", ""] if unmet else []
-    lines += ["## Survivors", "", "*Equivalent*: no input tells. *Harmless*: speed, the text of a message, a tie, a limit chosen at will.", ""]
-    lines += tables.table(["where", "what was put", "for what", "judged", "why"],
+    lines += [f"{unmet} survivors that are not reviewed as equivalent or harmless were not run by all tests that execute their line.", ""] if unmet else []
+    lines += ["## Survivors", "", "*Equivalent*: no input gives another result. *Harmless*: the change affects only speed, the text of a message, a tie, or an arbitrary limit. *Hole*: a test is missing.", ""]
+    lines += tables.table(["place", "changed code", "original code", "review", "reason"],
                           [[f"{path}:{line}", code(m.mutant) if m.mutant else f"no `{m.text}`", code(m.text), kind, reason]
                            for kind, path, line, reason, m in sorted(survivors, key=lambda s: (s[0] != "hole", s[0], s[1], int(s[2])))])
     tables.write(name, title, command, [{"started": day, "processor": tables.machine()} for day in sorted(days)], lines)
@@ -64,7 +64,7 @@ def write_both(numbered, asked, dropped, log, options):
     usual = {"number": NUMBER, "after": options.number, "fresh": 0, "count": 0, "skip": 0, "most": MOST, "slowest": SLOWEST}
     given = "".join(f" --{name} {getattr(options, name):g}" for name, value in usual.items() if getattr(options, name) != value)
     command = "make mutants" + (f' MUTANTS="{given.strip()}"' if given else "")
-    write_one("mutants", "Mutants of the sources and the tests that catch them", [(n, m) for n, m in numbered if m["name"] in asked], dropped,
-                log, command, "sampled and named")
-    write_one("mutants-fresh", "Fresh mutants of the sources, which no test was written for", [(n, m) for n, m in numbered if m["name"] not in asked],
-                dropped, log, command, f"behind the first {options.after} in the order of the sample")
+    write_one("mutants", "Changed sources (mutants) and the tests that detect them", [(n, m) for n, m in numbered if m["name"] in asked], dropped,
+                log, command, "sampled and named mutants")
+    write_one("mutants-fresh", "Changed sources (mutants) for which no test was written", [(n, m) for n, m in numbered if m["name"] not in asked],
+                dropped, log, command, f"mutants after the first {options.after} in the order of the sample")

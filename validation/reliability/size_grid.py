@@ -116,7 +116,7 @@ def main():
              *tables.table(["outcome", "combinations"], [[outcome, str(count)] for outcome, count in outcomes.most_common()]),
              f"Processor time: median {1000 * statistics.median(time[0] for time in times):.0f} ms, largest {1000 * slowest[0]:.0f} ms ({slowest[1]}); "
              f"{len(slow)} runs above the limit of {1000 * options.seconds:g} ms. Largest memory of a run {max(memory):.0f} MB."]
-    tables.write("size-grid", "Sizes over mass, rate, height and family", "make test-sizes",
+    tables.write("size-grid", "Parachute sizes over mass, descent rate, height and family", "make test-sizes",
                  tables.here(), lines)
     print("\n".join(lines + wrong + [f"slow: {seconds:.3f} s, {label}" for seconds, label in slow]))
     return 1 if wrong or slow or max(memory) > options.megabytes else 0

@@ -206,16 +206,16 @@ def write_table(options, log):
     if options.table != TABLE:
         asked += f" --table {options.table}"
     command = f'make torture TORTURE="{asked.strip()}"' if asked else "make torture"
-    lines = ["# Kills, failing writes, damaged files and lies", "",
+    lines = ["# Killed runs, failing writes, damaged files and wrong programs", "",
              f"`{command}`: {tables.machine()}, {' to '.join(named)}; "
              + "trials by commit: " + ", ".join(f"{commit} {n}" for commit, n in sorted(commits.items())) + ".", "",
-             "Felt: the command failed, with exit code 7 and the file's name; else the failing call was in nobody's way and the files are "
-             "those of the undisturbed run. Failed: not what is [promised](../reliability.md). Of: how many trials there are, where what was asked "
-             f"for has them; of the calls in the folders of a sweep's runs, which are those of `steady` but for what the sweep removes there, it has every {FAILING_IN_RUNS}th, of "
-             f"OpenFOAM's every {FAILING['openfoam']}th.", "",
-             *tables.table(["what", "command", "trials", "of", "SIGKILLs", "felt", "failed", "min"], rows)]
+             "*Noticed*: the command failed with exit code 7 and the name of the file; otherwise the failing call had no effect and the files "
+             "are those of the undisturbed run. *Failed*: the behaviour is not that of [reliability](../reliability.md). *Possible*: number of "
+             "possible trials. Of the calls in the folders of the runs of a sweep, which are mostly those of `steady`, every "
+             f"{FAILING_IN_RUNS}th was tried, and of those of OpenFOAM every {FAILING['openfoam']}th.", "",
+             *tables.table(["kind", "command", "trials", "possible", "SIGKILLs", "noticed", "failed", "min"], rows)]
     if bad:
-        lines += ["Failed:", "", *tables.table(["trial", "what was seen"], [[name, said.replace("|", "/")] for name, said in bad])]
+        lines += ["Failed:", "", *tables.table(["trial", "observation"], [[name, said.replace("|", "/")] for name, said in bad])]
     options.table.write_text("\n".join(lines).rstrip("\n") + "\n")
     print("\n".join(lines))
     return len(bad)

@@ -24,10 +24,10 @@ HEAD = """# Archive and wheel in empty systems
 
     ripstop {arguments}
 
-It ran in roots that debootstrap made (minbase), without a network. Roots of the wheel also have python3, python3-venv and
-python3-numpy, and those of the packages have the packages on which they depend.
+The command was run without a network in empty root folders made by debootstrap (minbase). Those of the wheel also have
+python3, python3-venv and python3-numpy, and those of the packages have the packages on which they depend.
 
-| file | MB | system | drag, N | iterations | pictures as where it was built |
+| file | MB | system | drag, N | iterations | pictures compared with those of the build machine |
 |---|---|---|---|---|---|
 """
 
@@ -154,7 +154,7 @@ def main():
     rows = []
 
     def add(name, size, release, got):
-        same = "the same bytes" if got["pictures"] == expected["pictures"] else "different"
+        same = "identical" if got["pictures"] == expected["pictures"] else "different"
         rows.append(f"| {name} | {size} | Debian {release} | {got['drag']} | {got['iterations']} | {same} |")
         print(rows[-1])
 
@@ -168,7 +168,7 @@ def main():
     for file in [file for file in files if options.image and file.suffix != ".whl"]:
         got, size = trial_of_image(options, "13", file)
         add("image by `packaging/Containerfile`", size, "13", got)
-    rows.append(f"| the program where it was built | | Debian {release_here()} | {expected['drag']} | {expected['iterations']} | |")
+    rows.append(f"| program on the build machine | | Debian {release_here()} | {expected['drag']} | {expected['iterations']} | |")
     day = datetime.date.today()
     head = HEAD.format(day=f"{day.day} {day:%B %Y}", arguments=options.arguments)
     parts = [parts_of(file) for file in files]
