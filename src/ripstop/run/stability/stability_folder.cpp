@@ -52,11 +52,20 @@ std::string watch_text(const WatchProgress& p, const Freestream& air) {
                      : fmt::format("drag {:.2f} N, start-up", drag);
 }
 
+/// The canopy on the axis is solved in the box that all angles have.
+Case in_full_domain(Case given) {
+  if (given.flow.symmetry == FlowSymmetry::automatic) given.flow.symmetry = FlowSymmetry::full;
+  return given;
+}
+
 /// One curve in its folder.
 class Curve {
  public:
   Curve(const Case& given, const std::vector<double>& angles, const StabilitySettings& settings)
-      : settings_(settings), angles_(angles), cases_(stability_cases(given, angles)), axis_(resolve(given)) {
+      : settings_(settings),
+        angles_(angles),
+        cases_(stability_cases(given, angles)),
+        axis_(resolve(in_full_domain(given))) {
     if (settings.equilibrium && !in_time())
       throw Error(ExitCode::usage,
                   fmt::format("--equilibrium: the engine \"{}\" has no flow in time; leave the option out",
