@@ -30,7 +30,7 @@ const Setting nine_gores{"parachute.gores", "9"}, nine_lines{"parachute.lines.co
 
 TEST(Symmetry, AutoSolvesAQuarterWhereCanopyCellsAndStreamAreMirrored) {
   EXPECT_EQ(full_because({}), "");
-  EXPECT_FALSE(steady_problem(mirrored_canopy({})).flow.quarter) << "full is the default";
+  EXPECT_TRUE(steady_problem(mirrored_canopy({})).flow.quarter) << "auto is the default";
   EXPECT_EQ(full_because({{"flow.symmetry", "quarter"}}), "");
   EXPECT_EQ(full_because({{"flow.symmetry", "full"}}), "flow.symmetry is \"full\"");
   EXPECT_EQ(full_because({nine_gores, nine_lines, no_vent_lines}), "the number of gores is odd (9)");

@@ -52,12 +52,6 @@ std::string watch_text(const WatchProgress& p, const Freestream& air) {
                      : fmt::format("drag {:.2f} N, start-up", drag);
 }
 
-/// The canopy on the axis is solved in the box that all angles have.
-Case in_full_domain(Case given) {
-  if (given.flow.symmetry == FlowSymmetry::automatic) given.flow.symmetry = FlowSymmetry::full;
-  return given;
-}
-
 /// One curve in its folder.
 class Curve {
  public:
@@ -65,7 +59,7 @@ class Curve {
       : settings_(settings),
         angles_(angles),
         cases_(stability_cases(given, angles)),
-        axis_(resolve(in_full_domain(given))) {
+        axis_(in_full_domain(resolve(given))) {  // as all angles
     if (settings.equilibrium && !in_time())
       throw Error(ExitCode::usage,
                   fmt::format("--equilibrium: the engine \"{}\" has no flow in time; leave the option out",
