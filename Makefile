@@ -33,7 +33,7 @@ ARCH_CHECK := gtest benchmark python pybind11 python-numpy python-jsonschema
 
 export PATH := /usr/bin:$(PATH)
 
-.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-openings validate-filling validate-flights validate-stability judge torture test-sizes test-studio test-tutorials test-drawings test-slurm test-hosts test-debian12 test-debian13 scaling docs reference report-libraries format format-check install-build install wheel tarball test-portable container package release clean
+.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-symmetry validate-openings validate-filling validate-flights validate-stability judge torture test-sizes test-studio test-tutorials test-drawings test-slurm test-hosts test-debian12 test-debian13 scaling docs reference report-libraries format format-check install-build install wheel tarball test-portable container package release clean
 
 help:  ## This list
 	@grep -hE '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -127,6 +127,9 @@ bench: check-deps  ## Run the benchmarks, some four hours; their figures are in 
 	@{ build-check/bench/bench_turned disk 8 16 24 && echo && \
 	  build-check/bench/bench_turned runs/turned/canopy.stl 8169.3 0 20:0 45:0 90:0 8 16 24 && echo && \
 	  build-check/bench/bench_turned runs/turned/canopy.stl 245 0 20:0 45:0 90:0 8 16 24; } | tee docs/tables/turned.md
+	@build-check/bin/ripstop steady examples/flat-circular/case.toml --grid 64,64,78 --set parachute.mesh.cloth_nodes=3000 \
+	  --set flow.symmetry=quarter --out runs/settling
+	@build-check/bench/bench_settling runs/settling 600 50 | tee docs/tables/settling.md
 	@build-check/bench/bench_attack plate 12 0 30 45 60 | tee docs/tables/plates.md
 	@build-check/bench/bench_attack between-walls 2.5 8 0 30 45 60 | tee docs/tables/plate.md
 	@build-check/bench/bench_sheet 28 4 | tee docs/tables/sheet-shifts.md
@@ -158,6 +161,9 @@ validate-families: build  ## Drag of every family's example compared with Knacke
 
 validate-families-in-time: build  ## The same with unsteady wakes, averaged in time, for the types in Knacke's manual: half an hour; resumable
 	@/usr/bin/python3 validation/families/families.py --ripstop build/bin/ripstop --in-time
+
+validate-symmetry: build  ## Steady drag of every example in the full flow domain and in a quarter, into docs/tables: half an hour; resumable
+	@/usr/bin/python3 validation/families/families.py --ripstop build/bin/ripstop --runs runs/symmetry --symmetry $(if $(GRID),--grid $(GRID))
 
 validate-openings: build  ## Coupled inflation of the same types, infinite mass, into docs/tables: half an hour; resumable
 	@/usr/bin/python3 validation/families/families.py --ripstop build/bin/ripstop --openings

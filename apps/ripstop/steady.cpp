@@ -93,6 +93,17 @@ void print_failure(const ClusterResult& cluster) {
                               : std::string()));
 }
 
+std::string flow_text(const SteadyIteration& last) {
+  const std::string left =
+      std::isfinite(last.drag_left)
+          ? fmt::format("; estimated change of drag that is left: {:.2g} %", 100 * last.drag_left)
+          : std::string();
+  if (last.flow_averaged > 0)
+    return fmt::format("did not converge: mean of the last {} iterations, drag {:.2f} +- {:.2f} N{}",
+                       last.flow_averaged, last.fluid_force, last.drag_deviation, left);
+  return (last.flow_converged ? "converged" : "did not converge") + left;
+}
+
 void print_result(const SteadyResult& r, const Settings& resolved, const fs::path& folder) {
   const auto row = print_row;
   print_text("\n{}\n", r.title);
@@ -139,9 +150,9 @@ void print_result(const SteadyResult& r, const Settings& resolved, const fs::pat
                            : "a quarter, mirrored in the planes x = 0 and y = 0 (flow.symmetry)");
   if (r.unsteady) {
     print_unsteady(*r.unsteady);
-  } else if (r.last.flow_averaged > 0)
-    row("flow", fmt::format("did not converge: mean of the last {} iterations, drag {:.2f} +- {:.2f} N",
-                            r.last.flow_averaged, r.last.fluid_force, r.last.drag_deviation));
+  } else {
+    row("flow", flow_text(r.last));
+  }
   row("coupling", fmt::format("{} iterations, {}, elapsed {}", r.iterations,
                               r.converged ? "converged" : "NOT converged", duration_text(r.wall_time)));
   row("files", fmt::format("{} (canopy.png, canopy.pvd, {}, result.json)", folder.string(),
@@ -153,7 +164,7 @@ int dry_run(const SteadyFolderSettings& settings, const Settings& resolved) {
   const fs::path& folder = settings.run.folder;
   check_steady_in(settings, resolved);
   const SteadyProblem problem = steady_problem(resolved);
-  const Cost cost = cost_of(resolved);
+  const Cost cost = cost_of(resolved, problem.flow.quarter);
   // Only the estimate of the built-in engine is reliable, and the length of an unsteady run is not known in
   // advance.
   const bool known = engine_of(resolved).word == engines().front().word && !resolved.flow().unsteady;

@@ -30,7 +30,7 @@ const Setting nine_gores{"parachute.gores", "9"}, nine_lines{"parachute.lines.co
 
 TEST(Symmetry, AutoSolvesAQuarterWhereCanopyCellsAndStreamAreMirrored) {
   EXPECT_EQ(full_because({}), "");
-  EXPECT_FALSE(steady_problem(mirrored_canopy({})).flow.quarter);
+  EXPECT_TRUE(steady_problem(mirrored_canopy({})).flow.quarter) << "auto is the default";
   EXPECT_EQ(full_because({{"flow.symmetry", "quarter"}}), "");
   EXPECT_EQ(full_because({{"flow.symmetry", "full"}}), "flow.symmetry is \"full\"");
   EXPECT_EQ(full_because({nine_gores, nine_lines, no_vent_lines}), "the number of gores is odd (9)");
@@ -42,6 +42,16 @@ TEST(Symmetry, AutoSolvesAQuarterWhereCanopyCellsAndStreamAreMirrored) {
   EXPECT_EQ(full_because({{"flow.porosity_model", "paper"}, {"flow.symmetry", "quarter"}}), "");
   EXPECT_EQ(full_because({{"flow.core.off_axis", "0.25"}}),
             "the cells are not symmetric about the canopy axis");
+}
+
+TEST(Symmetry, AutoSolvesTheFullDomainOnCoarseCellsAndInAnOpenJet) {
+  const Setting coarse{"flow.cells", "[40, 40, 50]"}, fine{"flow.cells", "[64, 64, 78]"};
+  const Setting quarter{"flow.symmetry", "quarter"};
+  EXPECT_EQ(full_because({coarse}), "there are 10.0 flow cells across the canopy, fewer than 16");
+  EXPECT_EQ(full_because({coarse, quarter}), "");
+  EXPECT_EQ(full_because({fine}), "");
+  const Setting jet{"flow.tunnel.kind", "open-jet"}, width{"flow.tunnel.width_m", "3"};
+  EXPECT_EQ(full_because({jet, width}), "the stream is an open jet");
 }
 
 TEST(Symmetry, AnEngineWithoutPlanesOfSymmetrySolvesTheFullDomain) {

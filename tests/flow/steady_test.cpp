@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "ripstop/core/error.h"
 
@@ -15,6 +16,7 @@ class Scripted : public Flow {
  public:
   std::function<double(int)> drag = [](int) { return 100.0; };
   std::function<double(int)> residual = [](int) { return 1.0; };
+  std::function<double(int)> deficit = [](int) { return 100.0; };
   int diverges_at = 0;  // 0: never
   bool has_guess = false;
   int iteration = 0, starts = 1;
@@ -36,6 +38,7 @@ class Scripted : public Flow {
   FlowField field() const override {
     FlowField field;
     field.porous_force = {0, 0, drag(iteration)};
+    field.momentum_deficit = {0, 0, deficit(iteration)};
     return field;
   }
   bool untouched() const override { return iteration == 0 && !guessed_; }
@@ -71,6 +74,57 @@ TEST(SolveToRest, ADragThatHasSettledEndsAtTheEndOfAPiece) {
   EXPECT_EQ(field.last.iteration, 75);
   EXPECT_FALSE(field.converged);
   EXPECT_EQ(flow.calls, (std::vector<int>{25, 25, 25}));
+}
+
+TEST(DragLeft, IsWhatAGeometricSeriesStillAdds) {
+  std::vector<double> drags;
+  for (int n = 0; n < 150; ++n) drags.push_back(100 + 20 * std::pow(0.99, n));
+  const double last_block = 20 * std::pow(0.99, 125) * (1 - std::pow(0.99, 25)) / (25 * 0.01);
+  EXPECT_NEAR(drag_left(drags), last_block / (100 + last_block), 1e-12);
+}
+
+TEST(DragLeft, AnExtremeOfTheDragIsNotItsLimit) {
+  std::vector<double> drags;
+  for (int n = 0; n < 75; ++n) drags.push_back(100 - 1e-3 * (n - 62) * (n - 62));  // flat in the last 25
+  EXPECT_LT(std::abs(drags[74] - drags[50]), 1e-3 * drags.back());
+  EXPECT_GT(drag_left(drags), 0.01);
+}
+
+TEST(DragLeft, IsUnknownAfterFewIterationsAndZeroForAConstant) {
+  EXPECT_TRUE(std::isinf(drag_left(std::vector<double>(29, 100.0))));
+  EXPECT_EQ(drag_left(std::vector<double>(30, 100.0)), 0);
+}
+
+// The residual is reached in iteration 31, the drag changes until later.
+TEST(SolveToRest, AResidualIsNotEnoughWhileMuchOfTheDragIsLeft) {
+  Scripted flow;
+  flow.residual = [](int n) { return std::pow(0.8, n); };
+  flow.drag = [](int n) { return 100 + 20 * std::exp(-n / 30.0); };
+  const FlowField field = solve_to_rest(flow, {.residual = 1e-3, .most_drag_left = 2e-3});
+  EXPECT_TRUE(field.converged);
+  EXPECT_LT(field.drag_left, 2e-3);
+  EXPECT_NEAR(field.porous_force.z, 100, 0.2);
+  EXPECT_EQ(field.last.iteration % Stopping::piece, 31 % Stopping::piece);
+  EXPECT_GT(solve_to_rest(flow, {.residual = 1e-3}).drag_left, field.drag_left);
+}
+
+TEST(SolveToRest, NearItsReferenceADragThatHasSettledIsNotEnough) {
+  Scripted flow;
+  flow.residual = [](int n) { return n < 90 ? 1 : 1e-9; };
+  const Stopping stopping{.settled_drag = 5e-3, .reference_drag = 100.4, .near = 5e-3};
+  EXPECT_EQ(solve_to_rest(flow, stopping).last.iteration, 90);
+  Scripted away;
+  away.drag = [](int) { return 101.0; };
+  EXPECT_EQ(solve_to_rest(away, stopping).last.iteration, 25);
+}
+
+TEST(SolveToRest, AConstantDragIsNotEnoughWhileTheWakeGrows) {
+  Scripted flow;
+  flow.deficit = [](int n) { return 100 * (1 - std::exp(-n / 50.0)); };  // 4 % are left after 161 iterations
+  EXPECT_EQ(solve_to_rest(flow, {.settled_drag = 5e-3, .momentum_gap = 0.04}).last.iteration, 175);
+  Scripted unknown;
+  unknown.deficit = [](int) { return std::nan(""); };
+  EXPECT_EQ(solve_to_rest(unknown, {.settled_drag = 5e-3, .momentum_gap = 0.04}).last.iteration, 25);
 }
 
 TEST(SolveToRest, ADragThatSwingsIsAveragedOverTheLastIterations) {

@@ -13,6 +13,9 @@ for a quick test; the loads are then only printed.
 `families.py --in-time` (make validate-families-in-time) computes the families of Knacke's manual with an unsteady wake: means over time
 with their standard errors, in docs/tables/families-in-time.md.
 
+`families.py --symmetry` (make validate-symmetry) computes every example in the full flow domain and in a quarter of it, on the default
+cells or `--grid`, one thread each: docs/tables/symmetry.md.
+
 `families.py --openings` (make validate-openings) computes their coupled inflation with a fixed riser, from a skirt of a quarter of the
 nominal diameter: docs/tables/families-openings.md.
 """
@@ -21,6 +24,7 @@ import csv
 import json
 import math
 import pathlib
+import resource
 import statistics
 import subprocess
 import sys
@@ -41,6 +45,7 @@ OPENING = ["parachute.canopy_material=mil-c-7020-type-i", "inflation.duration_s=
 OPENING_OF = {"ringslot": ["inflation.cloth_compression=0.1"]}
 MOUTHS = {"cross": 0.15}  # radius of the folded skirt [m] where 0.12 m cannot be folded
 IN_TIME = "in-time"  # instead of a load: that of the flow, in time
+PARTS = ["full", "auto"]  # likewise: flow.symmetry, under the load of the flow
 
 
 def examples():
@@ -59,8 +64,8 @@ def folder_of(options, name, load):
 
 def run(options, name, load):
     command = [str(options.ripstop.resolve()), "steady", f"examples/{name}/case.toml", "--out", str(folder_of(options, name, load))]
-    how = "flow.unsteady=true" if load == IN_TIME else f"coupling.load={load}"
-    settings = [*(SHEET_SPECIFIED if name in CAMPAIGN else []), how, *options.set]
+    how = {IN_TIME: ["flow.unsteady=true"], **{part: [f"flow.symmetry={part}", "coupling.threads=1"] for part in PARTS}}
+    settings = [*(SHEET_SPECIFIED if name in CAMPAIGN else []), *how.get(load, [f"coupling.load={load}"]), *options.set]
     for setting in settings:
         command += ["--set", setting]
     if options.grid:
@@ -203,6 +208,43 @@ def in_time(options):
         tables.write("families-in-time", "Families with an unsteady wake", "make validate-families-in-time", made, table)
 
 
+def part_of_domain(options, name, part):
+    """Result of a steady run with flow.symmetry, and its flow iterations and processor seconds, None where it failed."""
+    folder = folder_of(options, name, part)
+    finished = (folder / "result.json").exists()
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+    if run(options, name, part) is None:
+        return None
+    seconds = folder / "processor-seconds"  # of the run that made the folder
+    if not finished:
+        seconds.write_text(f"{resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before:.1f}\n")
+    with open(folder / "iterations.csv", encoding="utf-8") as file:
+        iterations = sum(int(row["flow_iterations"]) for row in csv.DictReader(file))
+    return json.loads((folder / "result.json").read_text()), iterations, float(seconds.read_text())
+
+
+def symmetry(options):
+    rows, made = [], []
+    for name in options.names:
+        parts = [part_of_domain(options, name, part) for part in PARTS]
+        if None in parts:
+            rows.append([name, "failed", *[""] * 7])
+            continue
+        made += [made_run for part in PARTS for made_run in tables.runs_below(folder_of(options, name, part))]
+        (full, full_steps, full_time), (quarter, steps, time) = parts
+        domain = quarter["flow_domain"]
+        rows.append([name, f"{full['drag_n']:.2f}", f"{quarter['drag_n']:.2f}", f"{100 * (quarter['drag_n'] / full['drag_n'] - 1):+.2f}",
+                     f"{full['coupling_iterations']}, {quarter['coupling_iterations']}", f"{full_steps}, {steps}",
+                     f"{full_time:.0f}, {time:.0f}", f"{full_time / time:.1f}", domain["reason"] or "quarter"])
+    table = tables.table(["example", "drag in the full domain N", "with `flow.symmetry = \"auto\"` N", "difference %",
+                          "coupling iterations", "flow iterations", "processor s", "ratio", "domain"], rows)
+    print("\n".join(table))
+    cells = "x".join(map(str, options.grid)) if options.grid else "default"
+    if options.names == FAMILIES + CAMPAIGN and not options.set:
+        command = "make validate-symmetry" + (f' GRID="{" ".join(map(str, options.grid))}"' if options.grid else "")
+        tables.write("symmetry", f"Steady drag in the full flow domain and in a quarter of it, {cells} cells", command, made, table)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--ripstop", type=pathlib.Path, default=ROOT / "build/bin/ripstop")
@@ -211,11 +253,13 @@ def main():
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE")
     parser.add_argument("--in-time", action="store_true")
     parser.add_argument("--openings", action="store_true")
+    parser.add_argument("--symmetry", action="store_true")
     parser.add_argument("names", nargs="*", default=FAMILIES + CAMPAIGN, help="examples; all of them without a name")
     options = parser.parse_args()
-    if options.in_time or options.openings:
-        (in_time if options.in_time else openings)(options)
-        return
+    for wanted, table in ((options.in_time, in_time), (options.openings, openings), (options.symmetry, symmetry)):
+        if wanted:
+            table(options)
+            return
     done = {(name, load): run(options, name, load) for load in LOADS for name in options.names}
     results = {(name, load): done[name, load] for name in options.names for load in LOADS}
     loads = loads_table(options, results)

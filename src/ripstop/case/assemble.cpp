@@ -96,8 +96,14 @@ void require_axial_stream(const FlowSettings& flow, const char* what) {
 
 namespace {
 
-/// Why a steady run solves the whole box, as a clause; empty: a quarter is enough.
-std::string why_full_box(const Settings& resolved, const SteadyProblem& problem) {
+// The force on coarse cells depends on a few cells at the skirt, in a quarter on four at a time, and the coupling may then
+// alternate between two shapes. The whole of so coarse a box is solved in seconds.
+constexpr double fewest_cells_across = 16;
+
+}  // namespace
+
+std::string why_full_box(const Settings& resolved, const CanopyMesh& mesh, const FlowProblem& problem,
+                         bool own_mesh) {
   const FlowSettings& flow = resolved.flow();
   if (flow.symmetry == FlowSymmetry::full) return "flow.symmetry is \"full\"";
   if (!engine_of(flow.engine).can.quarters)
@@ -107,14 +113,18 @@ std::string why_full_box(const Settings& resolved, const SteadyProblem& problem)
   // Rounding decides whether cloth touches a cell, and the published values are those of the full box.
   if (flow.porosity_model == PorosityModel::paper && flow.symmetry == FlowSymmetry::automatic)
     return "the \"paper\" model is compared with the full domain of its source";
-  if (std::string reason = why_not_mirrored(problem.flow); !reason.empty()) return reason;
-  if (mirror_images(problem.mesh)) return {};
-  if (const int gores = resolved.parachute().gores; gores % 2 != 0 && !problem.own_mesh)
+  if (flow.tunnel.kind == TunnelKind::open_jet && flow.symmetry == FlowSymmetry::automatic)
+    return "the stream is an open jet";
+  if (std::string reason = why_not_mirrored(problem); !reason.empty()) return reason;
+  if (const double across = cells_across(resolved);
+      across < fewest_cells_across && flow.symmetry == FlowSymmetry::automatic)
+    return fmt::format("there are {:.1f} flow cells across the canopy, fewer than {:g}", across,
+                       fewest_cells_across);
+  if (mirror_images(mesh)) return {};
+  if (const int gores = resolved.parachute().gores; gores % 2 != 0 && !own_mesh)
     return fmt::format("the number of gores is odd ({})", gores);
   return "the canopy is not its own mirror image in the planes x = 0 and y = 0";
 }
-
-}  // namespace
 
 SteadyProblem steady_problem(const Settings& resolved, const CanopyMesh* own) {
   require_axial_stream(resolved.flow(), "a steady run");
@@ -133,7 +143,7 @@ SteadyProblem steady_problem(const Settings& resolved, const CanopyMesh* own) {
     problem.averaging_window = {keys.courant, keys.standard_error, keys.shortest, keys.longest,
                                 inflated_diameter(resolved.parachute())};
   }
-  problem.full_box_because = why_full_box(resolved, problem);
+  problem.full_box_because = why_full_box(resolved, problem.mesh, problem.flow, problem.own_mesh);
   problem.flow.quarter = problem.full_box_because.empty();
   if (resolved.flow().symmetry == FlowSymmetry::quarter && !problem.flow.quarter)
     throw Error(ExitCode::usage,

@@ -30,6 +30,9 @@ double mass_beyond(const CanopyMesh& mesh, const Settings& resolved);
 FlowProblem flow_problem(const Settings& resolved);
 /// Throws Error(usage) if flow.angle_of_attack_deg is not 0; `what` does not support one.
 void require_axial_stream(const FlowSettings& flow, const char* what);
+/// Why a steady run solves the whole box, as a clause; empty: a quarter is enough.
+std::string why_full_box(const Settings& resolved, const CanopyMesh& mesh, const FlowProblem& problem,
+                         bool own_mesh = false);
 SteadyProblem steady_problem(const Settings& resolved, const CanopyMesh* own = nullptr);
 
 }  // namespace ripstop::inline cases

@@ -51,7 +51,7 @@ struct FlowOptions {
   double turbulence_intensity = 0.005;
   double viscosity_ratio = 10;
   double angle_of_attack_deg = 0, azimuth_deg = 0;  // of the stream, see wind_direction()
-  FlowSymmetry symmetry = FlowSymmetry::full;
+  FlowSymmetry symmetry = FlowSymmetry::automatic;
   FlowMesh mesh = FlowMesh::grid;
   int cloth_levels = 0;  // fitted: times that the cells at the cloth are halved
   int ranks = 1;

@@ -24,6 +24,9 @@ constexpr double bytes_a_node = 1000;
 constexpr double flow_iterations = 1000, cell_time = 1.2e-7;  // of a cell and iteration [core s]
 constexpr double cloth_steps = 15000, node_time = 1.5e-8;     // of a node and step [core s]
 
+// Of a quarter: a quarter of the arrays, and pressure and velocity of the whole box.
+constexpr double quarter_time = 0.25, quarter_memory = 0.3;
+
 /// The number behind `name` in a file of lines "name value", nothing where there is none.
 std::optional<double> number_in(const char* file, const std::string& name) {
   std::ifstream in(file);
@@ -55,7 +58,7 @@ double flow_memory(double cells) {
   return bytes_a_run + bytes_a_cell * cells;
 }
 
-Cost cost_of(const Settings& resolved) {
+Cost cost_of(const Settings& resolved, bool quarter) {
   Cost cost;
   const Design& design = resolved.parachute();
   const FlowSettings& flow = resolved.flow();
@@ -64,8 +67,9 @@ Cost cost_of(const Settings& resolved) {
   if (flow.cloth_levels > 0)
     cost.cells = fitted_cells(flow_grid(flow), nominal_area(design), flow.cloth_levels);
   cost.cloth_memory = bytes_a_node * cost.nodes;
-  cost.memory = flow_memory(cost.cells) + cost.cloth_memory;
-  cost.time = flow_iterations * cell_time * cost.cells + cloth_steps * node_time * cost.nodes;
+  cost.memory = flow_memory((quarter ? quarter_memory : 1) * cost.cells) + cost.cloth_memory;
+  cost.time = flow_iterations * cell_time * (quarter ? quarter_time : 1) * cost.cells +
+              cloth_steps * node_time * cost.nodes;
   return cost;
 }
 

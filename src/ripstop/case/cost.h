@@ -14,7 +14,8 @@ struct Cost {
   double memory = 0;        // of a steady run with the built-in engine [bytes]
   double time = 0;          // of the same to rest on one core [s]; half to twice as much is usual
 };
-Cost cost_of(const Settings& resolved);
+/// `quarter`: of a steady run that solves a quarter of the box.
+Cost cost_of(const Settings& resolved, bool quarter = false);
 /// Memory of a flow of the built-in engine by itself [bytes].
 double flow_memory(double cells);
 

@@ -393,6 +393,11 @@ SettingsValues settings_values(const Case& given) {
   return values;
 }
 
+double cells_across(const Settings& resolved) {
+  const FlowSettings& flow = resolved.flow();
+  return inflated_diameter(resolved.parachute()) / flow_grid(flow).spacing({0, 0, flow.canopy_position_m}).x;
+}
+
 FlowGrid flow_grid(const FlowSettings& flow) {
   FlowGrid grid;
   grid.origin = {-0.5 * flow.box_m.x, -0.5 * flow.box_m.y, 0};

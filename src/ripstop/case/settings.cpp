@@ -52,6 +52,13 @@ Settings at_speed(const Settings& resolved, double speed_m_s) {
   return resolve(changed);
 }
 
+Settings in_full_domain(const Settings& resolved) {
+  if (resolved.flow().symmetry != FlowSymmetry::automatic) return resolved;
+  Case changed = resolved.written();
+  changed.flow.symmetry = FlowSymmetry::full;
+  return resolve(changed);
+}
+
 bool same_flow(const FlowSettings& a, const FlowSettings& b) {
   FlowSettings other = b;
   other.canopy_position_m = a.canopy_position_m;

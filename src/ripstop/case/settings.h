@@ -120,11 +120,15 @@ class Settings {
 Settings resolve(const Case& given);
 /// The same settings at another speed, which is the nominal one too [m/s].
 Settings at_speed(const Settings& resolved, double speed_m_s);
+/// The same settings, with the whole domain where flow.symmetry is "auto": for flows that continue in time or at an angle.
+Settings in_full_domain(const Settings& resolved);
 
 /// Length unit of the domain of the sheet model [m].
 double inflated_diameter(const Design& parachute);
 /// Cells of the flow. Throws Error(usage) for a core that does not fit, or that the cells do not suffice for.
 FlowGrid flow_grid(const FlowSettings& flow);
+/// Those across the inflated canopy.
+double cells_across(const Settings& resolved);
 /// Whether the field of one flow can start the other: both are solved alike on the same cells. The position of the
 /// canopy and the averaging window may differ, and the air too if the engine can scale its field.
 bool same_flow(const FlowSettings& a, const FlowSettings& b);

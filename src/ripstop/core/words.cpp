@@ -117,6 +117,7 @@ const std::map<std::string_view, Wording>& known() {  // NOLINT(readability-func
       {"cloth_hold_pa_m", {"regularisation of the cloth", "Pa/m"}},
       {"cloth_held", {"regularisation forces over the load", ""}},
       {"drag_deviation_n", {"standard deviation of the drag", "N"}},
+      {"drag_left", {"estimated share of the drag by which the flow would still change it", ""}},
       {"drag_error_n", {"standard error of the drag", "N"}},
       {"enough", {"whether the required standard error is reached", ""}},
       {"in_time", {"whether the iteration has an averaging window", ""}},

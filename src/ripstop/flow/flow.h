@@ -137,6 +137,13 @@ struct Stopping {
   /// Enough, too, once the drag moved by less than this share of itself within `piece` iterations; 0: never.
   double settled_drag = 0;
   static constexpr int piece = 25;
+  /// But not where the drag lies within the share `near` of `reference_drag` [N]; 0: there too.
+  double reference_drag = 0, near = 0;
+  /// The residual is not enough before drag_left() is below this share; 0: it is.
+  double most_drag_left = 0;
+  /// Neither residual nor drag is enough before the momentum deficit of the box agrees with the drag within this share:
+  /// until then the wake still grows or shrinks, and the drag may only turn. 0: they are.
+  double momentum_gap = 0;
 };
 
 struct FlowProblem {
@@ -185,7 +192,8 @@ struct FlowField {
   Vec3 momentum_deficit;  // force from the fluxes through the faces of the box [N]; NaN: not known
   FlowProgress last;
   bool converged = false;
-  FlowAverage average;  // where it has iterations, the fields and forces above are means over them
+  double drag_left = 0;  // see drag_left() in steady.h; 0 for a mean in time
+  FlowAverage average;   // where it has iterations, the fields and forces above are means over them
 };
 
 /// How far Flow::advance() came.

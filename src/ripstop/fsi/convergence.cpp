@@ -8,6 +8,19 @@
 #include "ripstop/fsi/ledger.h"
 
 namespace ripstop::inline fsi {
+namespace {
+
+// The drag has settled when it moved by less than this within one piece of the flow's solution: half the
+// default tolerance on the drag's change from one coupling iteration to the next.
+constexpr double settled_drag = 5e-4;
+// Largest difference of momentum deficit and drag while the shape still moves, and at the end.
+constexpr double developing_wake = 0.04, settled_wake = 0.015;
+// Share of the drag by which a flow in full may still change: half of the default tolerance on its change.
+constexpr double most_drag_left = 2.5e-3;
+// Of the tolerance on the change of drag: beyond, a drag that has settled but is not known in full does not come back.
+constexpr double far_away = 2;
+
+}  // namespace
 
 void enter_shape_change(SteadyIteration& now, const std::vector<Vec3>& before,
                         const std::vector<Vec3>& after) {
@@ -70,6 +83,25 @@ bool SteadyConvergence::asks_for_full_flow(const SteadyState& state, const Stead
   if (state.in_time) return now.regularisation_share < regularisation_tolerance && last.in_time;
   // With CanopyLoad::of_flow, the drag of a flow that was left early does not show whether it settles.
   return settings_.load == CanopyLoad::of_flow || last.drag_change < settings_.drag_tolerance;
+}
+
+// The load of the flow follows the wake, whose growth the drag alone does not show. If the drag settles away from that of
+// the last iteration, the coupling cannot converge in this one, and the flow is not solved in full. A flow without a mean
+// in place of its last field has to meet its residual alone.
+Stopping SteadyConvergence::stopping(const FlowProblem& problem, const SteadyState& state,
+                                     bool in_full) const {
+  Stopping stopping = problem.stopping;
+  if (!in_full) stopping.settled_drag = settled_drag;
+  if (settings_.load != CanopyLoad::of_flow || stopping.average_over == 0) return stopping;
+  stopping.momentum_gap = in_full ? settled_wake : developing_wake;
+  if (in_full) stopping.most_drag_left = most_drag_left;
+  // The drag of an iteration of the flow is that of all bodies.
+  if (in_full && problem.bodies.size() == 1 && !state.iterations.empty()) {
+    stopping.settled_drag = settled_drag;
+    stopping.reference_drag = state.iterations.back().fluid_force;
+    stopping.near = far_away * settings_.drag_tolerance + (window_ ? window_->standard_error : 0);
+  }
+  return stopping;
 }
 
 // Before a window, drag and force balance need not be more accurate than the mean in time will be. In time only the

@@ -3,14 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ripstop/flow/steady.h"
-
 namespace ripstop::inline fsi {
 namespace {
 
-// The drag has settled when it moved by less than this within one piece of the flow's solution: half the
-// default tolerance on the drag's change from one coupling iteration to the next.
-constexpr double settled = 5e-4;
 // Of a whole averaging window, as long as the shape still moves.
 constexpr double short_window = 1.0 / 3;
 
@@ -29,11 +24,6 @@ double scatter_of_means(const std::vector<SteadyIteration>& iterations, double n
 }
 
 }  // namespace
-
-FlowField steady_flow(Flow& flow, Stopping stopping, bool in_full, const FlowReport& report) {
-  if (!in_full) stopping.settled_drag = settled;
-  return solve_to_rest(flow, stopping, report);
-}
 
 FlowField averaged_flow(Flow& flow, const FlowProblem& problem, Watch window, bool in_full,
                         SteadyState& state, FlowRecord& record, const WatchReport& report) {

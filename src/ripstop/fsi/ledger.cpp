@@ -41,6 +41,7 @@ void enter_flow(SteadyIteration& now, const SteadyState& state, const FlowField&
   now.flow_converged = field.converged;
   now.flow_averaged = field.average.iterations;
   now.drag_deviation = field.average.drag_deviation;
+  now.drag_left = field.drag_left;
   const Vec3 others = force_on_others(field.bodies);
   now.fluid_force = field.porous_force.z - others.z;
   now.momentum_deficit = field.momentum_deficit.z - others.z;

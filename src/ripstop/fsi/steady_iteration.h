@@ -28,9 +28,10 @@ struct SteadyIteration {
   double regularisation_share = 0;  // RelaxResult::regularisation_share
   int flow_iterations = 0;
   double flow_residual = 0;     // largest of all equations
-  bool flow_converged = false;  // to Stopping::residual
+  bool flow_converged = false;  // to Stopping::residual, and its drag has settled
   int flow_averaged = 0;        // iterations over which a flow that did not converge is averaged; 0: none
   double drag_deviation = 0;    // standard deviation of the drag over them, or over the watch [N]
+  double drag_left = 0;         // FlowField::drag_left
   bool in_time = false;         // the flow was watched in time; flow_iterations are its steps
   double drag_error = 0;        // standard error of the mean drag of such a flow [N]
   int cut_cells = 0;
@@ -62,6 +63,7 @@ void each_member(T& i, Visit&& visit) {
   visit("flow_converged", i.flow_converged);
   visit("flow_averaged", i.flow_averaged);
   visit("drag_deviation_n", i.drag_deviation);
+  visit("drag_left", i.drag_left);
   visit("in_time", i.in_time);
   visit("drag_error_n", i.drag_error);
   visit("cut_cells", i.cut_cells);

@@ -9,6 +9,7 @@
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/quantity_error.h"
+#include "ripstop/flow/steady.h"
 #include "ripstop/fsi/flow_sampling.h"
 #include "ripstop/fsi/ledger.h"
 #include "ripstop/fsi/next_load.h"
@@ -193,10 +194,12 @@ FlowField SteadySolver::advance_flow(SteadyState& state, bool in_full, int itera
                            return true;
                          });
   }
-  return steady_flow(*flow_, problem_.flow.stopping, in_full, [&](const FlowProgress& progress) {
-    if (report) report({.stage = SteadyStage::flow, .iteration = iteration, .flow = progress});
-    return true;
-  });
+  return solve_to_rest(*flow_, convergence_.stopping(problem_.flow, state, in_full),
+                       [&](const FlowProgress& progress) {
+                         if (report)
+                           report({.stage = SteadyStage::flow, .iteration = iteration, .flow = progress});
+                         return true;
+                       });
 }
 
 // R dx^2 / (S0 K_max): the tolerance of omega in [NFM] Eq. 19.

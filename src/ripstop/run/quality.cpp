@@ -7,7 +7,6 @@
 #include <limits>
 #include <stdexcept>
 
-#include "ripstop/case/settings.h"
 #include "ripstop/core/words.h"
 
 namespace ripstop::inline run {
@@ -43,6 +42,8 @@ const std::vector<QualityLimit>& quality_limits() {
        "let the coupling converge (coupling.max_iterations)"},
       {"momentum_deficit_gap", "difference of momentum deficit and air load", 0.05, 0.2, false, 100, " %",
        "lower flow.residual or raise flow.max_iterations"},
+      {"drag_left", "estimated change of drag that the last flow has left", 0.01, never, false, 100, " %",
+       "raise flow.max_iterations, or compute the flow in time (flow.unsteady)"},
       {"cells_across", "number of flow cells across the inflated canopy", 10, 4, true, 1, "",
        "use more cells (flow.cells) or a smaller domain (flow.box_m)"},
   };
@@ -76,11 +77,6 @@ Judgement judge(const std::vector<QualityValue>& values) {
                                              limit.remedy));
   }
   return judgement;
-}
-
-double cells_across(const Settings& resolved) {
-  const double place = resolved.flow().canopy_position_m;
-  return inflated_diameter(resolved.parachute()) / flow_grid(resolved.flow()).spacing({0, 0, place}).x;
 }
 
 }  // namespace ripstop::inline run

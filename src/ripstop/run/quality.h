@@ -5,8 +5,6 @@
 #include <string_view>
 #include <vector>
 
-#include "ripstop/case/settings.h"
-
 namespace ripstop::inline run {
 
 /// One measure. Above `warn` (below it where `at_least`) the result has a warning; beyond `refuse` it must not be used,
@@ -47,8 +45,5 @@ struct Judgement {
 
 /// Compares `values` with their limits. A value that is not finite is not usable. Throws as quality_limit().
 Judgement judge(const std::vector<QualityValue>& values);
-
-/// Cells of the flow's grid across the inflated canopy.
-double cells_across(const Settings& resolved);
 
 }  // namespace ripstop::inline run

@@ -60,7 +60,7 @@ FlightStart equilibrium_on_axis(const Settings& resolved, int threads, const fs:
   AxialRun axial(observer, flow);
   SteadySettings settings;
   settings.threads = threads;
-  const SteadySolution solution = run_steady(resolved, axial, settings);
+  const SteadySolution solution = run_steady(in_full_domain(resolved), axial, settings);
   if (!solution.result.converged)
     observer.warned(
         fmt::format("the canopy on the axis did not come to equilibrium within {} iterations; the "

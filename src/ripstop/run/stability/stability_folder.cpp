@@ -56,7 +56,10 @@ std::string watch_text(const WatchProgress& p, const Freestream& air) {
 class Curve {
  public:
   Curve(const Case& given, const std::vector<double>& angles, const StabilitySettings& settings)
-      : settings_(settings), angles_(angles), cases_(stability_cases(given, angles)), axis_(resolve(given)) {
+      : settings_(settings),
+        angles_(angles),
+        cases_(stability_cases(given, angles)),
+        axis_(in_full_domain(resolve(given))) {  // as all angles
     if (settings.equilibrium && !in_time())
       throw Error(ExitCode::usage,
                   fmt::format("--equilibrium: the engine \"{}\" has no flow in time; leave the option out",

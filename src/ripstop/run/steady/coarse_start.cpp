@@ -24,12 +24,14 @@ bool may_be_coarsened(const Settings& resolved) {
          cells_across(resolved) >= fewest_across;
 }
 
-/// Half as many cells along each axis, an even number across the stream: planes of symmetry remain cell faces.
-Settings coarsened(const Settings& resolved) {
+/// Half as many cells along each axis, an even number across the stream: planes of symmetry remain cell faces. The flow
+/// is handed over, so the same part of the box is solved.
+Settings coarsened(const Settings& resolved, bool quarter) {
   Case given = resolved.written();
   const auto& [nx, ny, nz] = resolved.flow().cells;
   given.flow.cells = {2 * ((nx + 2) / 4), 2 * ((ny + 2) / 4), (nz + 1) / 2};
   given.flow.unsteady = false;
+  given.flow.symmetry = quarter ? FlowSymmetry::quarter : FlowSymmetry::full;
   given.coupling.coarse_start = false;
   given.coupling.max_iterations = most_iterations;
   given.coupling.drag_tolerance = coarse_drag_tolerance;
@@ -73,7 +75,7 @@ std::unique_ptr<CoarseStart> coarse_start(const Settings& resolved, const Steady
   try {
     auto start = std::make_unique<CoarseStart>();
     CoarseObserver coarse(start->flow.path, observer);
-    start->state = run_steady(coarsened(resolved), coarse, settings).state;
+    start->state = run_steady(coarsened(resolved, solver.full_box_because().empty()), coarse, settings).state;
     return start;
   } catch (const Error& error) {
     if (error.code() != ExitCode::usage && error.code() != ExitCode::diverged &&

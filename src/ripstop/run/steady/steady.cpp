@@ -39,6 +39,7 @@ void take_quality(SteadyResult& r, const Settings& resolved, bool own_mesh) {
       {"momentum_deficit_gap", gap(r.ledger.momentum_deficit)}};
   if (r.unsteady) values.push_back({"mass_defect", r.unsteady->watched.mass_defect});
   Judgement judgement = judge(values);
+  if (std::isfinite(r.last.drag_left)) judgement.add(judge({{"drag_left", r.last.drag_left}}).warnings);
   if (r.cluster) judgement.add(cluster_warnings(*r.cluster));
   judgement.add(margin_warnings(r.margins));
   judgement.add(warnings_of(resolved, r.stress.strain, own_mesh));
