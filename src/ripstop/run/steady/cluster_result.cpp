@@ -64,8 +64,7 @@ Margins margins_after_failure(const SteadySolver& solver, std::vector<double> te
   stress.warp *= more, stress.weft *= more;
   Margins margins = case_margins(resolved, solver.mesh(), tensions, stress);
   std::erase_if(margins.members, [&](const Margin& m) { return resolved.hardware().contains(m.member); });
-  const Margin* least = weakest(margins);
-  margins.weakest = least ? least->member : "";
+  take_weakest(margins);
   return margins;
 }
 
