@@ -96,8 +96,8 @@ MethodPeak design_peak(const LoadResult& r, const std::string& method, double le
   return peak;
 }
 
-/// The largest speed from `low`, at which `keeps` is true, up to the fastest deployment at which `keeps` is true; nothing: it is true at all of
-/// them.
+/// The largest speed at which `keeps` is true, from `low`, where it is, to the fastest deployment; nothing: it is true
+/// there too.
 template <class Keeps>
 std::optional<double> largest_speed(double low, Keeps&& keeps) {
   double high = fastest_deployment;
