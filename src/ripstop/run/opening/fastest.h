@@ -83,7 +83,7 @@ std::string to_json(const FastestResult& result);
 /// else infinite mass or a larger load of the computed opening. `known` replaces load_uncertainty() of the drag
 /// coefficient, and the canopy carries the `least_load` [N] at any speed. Throws Error(usage) as run_load(), for a margin
 /// below 0, and for a parachute in which no strength of lines, tape, riser and hardware is known.
-FastestResult run_fastest(const Settings& resolved, LoadRequest request, double margin = 0,
+FastestResult run_fastest(const Settings& resolved, const LoadRequest& request, double margin = 0,
                           std::optional<LoadUncertainty> known = {}, double least_load = 0);
 
 /// result.json.
