@@ -67,8 +67,7 @@ void add_descent(CLI::App& app, int& status) {
       app.add_subcommand("descent", "Compute terminal speed and descent time from a steady run or a flight");
   command->footer(
       "+- is the numerical uncertainty of the run (last change of the drag, averaging, force balance), or "
-      "the "
-      "standard\nerror of the flight. It does not include the error of the model.\n"
+      "the standard\nerror of the flight. It does not include the error of the model.\n"
       "Example: ripstop descent runs/stratos --mass 4 --height 300,1000");
   command->add_option("run", options->run, "Folder of a finished run of ripstop steady or fly")->required();
   add_number(*command, "--mass", options->mass, key_range("payload.mass_kg"),

@@ -55,8 +55,7 @@ void print_permeability(const MaterialFit& fit) {
   const PressureDrop& law = fit.permeability.law;
   fmt::print(
       "\nair permeability: dp = a v + b v |v| with a = {:.5g} Pa s/m, b = {:.5g} Pa s2/m2, {}; {:.4g} "
-      "CFM/ft2 "
-      "at half an inch of water\n",
+      "CFM/ft2 at half an inch of water\n",
       law.linear, law.quadratic,
       fit.permeability.one_point ? "from one reading" : fmt::format("R2 {:.4f}", fit.permeability.r2),
       cfm(law));

@@ -48,9 +48,7 @@ void print_deployment(const Settings& resolved) {
   const PackedParachute packed = packed_parachute(resolved);
   print_text(
       "deployment: container {:.3g} kg, its drag area {:.3g} m2; canopy {:.3g} kg, lines {:.3g} kg; strip "
-      "force {:.3g} "
-      "N, line "
-      "force {:.3g} N\n",
+      "force {:.3g} N, line force {:.3g} N\n",
       packed.bag_mass, packed.bag_drag_area, packed.canopy_mass, packed.lines_mass, packed.strip_force,
       packed.line_force);
   for (const DeploymentPhase& phase : deployment->phases)

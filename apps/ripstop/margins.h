@@ -16,13 +16,13 @@ void print_stresses(double max_line_tension, const StressPeak& stress);
 void print_payload(const SteadyResult& result);
 /// With `largest`, the ratio of the largest load to the load of the margins, the utilisation under both.
 void print_margins(const std::optional<Margins>& margins, std::optional<double> largest = {});
-/// Strength that each part of the hardware needs.
 /// A line where --mass replaces another payload.mass_kg of the case.
 void print_replaced_mass(const std::optional<double>& given, const Settings& resolved);
 /// The load of a shock cord that no opening load contains, with its formula.
 void print_separation();
 /// Volume of the packed parachute alone, and at the density of a loose packing.
 std::string packed_text(double mass, double volume);
+/// Strength that each part of the hardware needs.
 std::string hardware_text(const HardwareNeed& need);
 /// "12.3 m/s, range 11 to 14 m/s, line reaches its allowable load", or that there is none.
 std::string safe_speed_text(const SafeSpeed& safe);

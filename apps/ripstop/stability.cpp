@@ -140,8 +140,7 @@ int finish(const StabilityArguments& options, const StabilityResult& result,
   const int status = print_result_warnings(result.warnings, result.usable);
   if (!missing.empty())
     throw Error(ExitCode::io,
-                fmt::format("{}: not there yet; submit again, or repeat ripstop stability without "
-                            "--gather",
+                fmt::format("{}: not there yet; submit again, or repeat ripstop stability without --gather",
                             fmt::join(missing, ", ")));
   return status;
 }
@@ -183,8 +182,7 @@ void add_stability(CLI::App& app, int& status) {
       "stability", "Compute force and moment coefficients over the angle of attack, and trim angles");
   command->footer(
       "The canopy keeps the shape of a steady run on the axis; the stream arrives at the angle, and its "
-      "force is "
-      "averaged in time.\n"
+      "force is averaged in time.\n"
       "C_T is along the canopy's axis, C_N normal to it (positive: reduces the angle), C_m about the "
       "confluence\n"
       "(positive: increases the angle); +- is one standard error. A trim angle has C_m = 0, and is stable "

@@ -10,7 +10,6 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/visible.h"
 #include "ripstop/core/wrap.h"
-#include "ripstop/run/steady/warnings.h"
 
 namespace ripstop::cli {
 
@@ -33,10 +32,6 @@ int print_result_warnings(const std::optional<std::vector<std::string>>& warning
 
 void print_deprecations(const std::vector<std::string>& deprecations) {
   print_warnings(deprecations);
-}
-
-void print_case_warnings(const Settings& resolved) {
-  print_warnings(case_warnings(resolved));
 }
 
 }  // namespace ripstop::cli

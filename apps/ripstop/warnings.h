@@ -1,11 +1,9 @@
-// Warnings of the materials of a case about a run.
+// Warnings on standard error.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
-
-#include "ripstop/case/settings.h"
 
 namespace ripstop::cli {
 
@@ -18,8 +16,5 @@ int print_result_warnings(const std::optional<std::vector<std::string>>& warning
 
 /// Reports deprecated keys of a case on standard error.
 void print_deprecations(const std::vector<std::string>& deprecations);
-
-/// Warns on standard error of doubts about a valid case: mesh, grid, porosity.
-void print_case_warnings(const Settings& resolved);
 
 }  // namespace ripstop::cli

@@ -71,16 +71,18 @@ void add_load(py::module_& module) {
       py::arg("snatch_speed_m_s") = py::none(), py::arg("packed_drag_area_m2") = py::none(),
       py::arg("payload_drag_area_m2") = py::none(), py::arg("measured_load_n") = py::none(),
       py::arg("out") = py::none(),
-      "Estimates opening and snatch loads for a payload [kg] by several methods: ripstop load.\n\nspeed_m_s: "
-      "airspeed at line stretch.\nheight_m: height above sea level at line stretch, with the standard "
-      "atmosphere there (None: air of the case).\nground_m: height of the ground, where the flight ends "
-      "(None: 0 "
-      "with height_m, else none).\npath_angle_deg: angle of the flight path below the "
-      "horizon.\nmeasured_load_n: measured opening load at this state, which becomes the design "
-      "load.\nreefing: stages (share of the drag area, seconds), in order.\nsteady: a Steady or its run "
-      "folder, for the drag coefficient.\nopening: run folder of an opening.\nout: folder for the files of "
-      "the result. None: no files.\n\nValues that are None are taken from the case or from data of the "
-      "canopy family. Loads are in [N].");
+      "Estimates opening and snatch loads for a payload [kg] by several methods: ripstop load.\n\n"
+      "speed_m_s: airspeed at line stretch.\n"
+      "height_m: height above sea level at line stretch, with the standard atmosphere there (None: air of "
+      "the case).\n"
+      "ground_m: height of the ground, where the flight ends (None: 0 with height_m, else none).\n"
+      "path_angle_deg: angle of the flight path below the horizon.\n"
+      "measured_load_n: measured opening load at this state, which becomes the design load.\n"
+      "reefing: stages (share of the drag area, seconds), in order.\n"
+      "steady: a Steady or its run folder, for the drag coefficient.\n"
+      "opening: run folder of an opening.\n"
+      "out: folder for the files of the result. None: no files.\n\n"
+      "Values that are None are taken from the case or from data of the canopy family. Loads are in [N].");
 }
 
 }  // namespace ripstop::python

@@ -93,9 +93,11 @@ void add_pattern(py::module_& module) {
       py::arg("packing_density_kg_m3") = packed_by_hand, py::arg("out") = py::none(), py::arg("units") = "mm",
       py::arg("paper") = "",
       "Makes the cutting pattern and the bill of materials: ripstop pattern. Lengths are in [m], areas in "
-      "[m2],\nmasses in [kg].\n\nout: folder for the drawings and the bill. None: no files.\nunits: of the "
-      "DXF "
-      "files, \"mm\" or \"in\".\npaper: also as PDF on sheets, \"a4\" or \"letter\".");
+      "[m2],\n"
+      "masses in [kg].\n\n"
+      "out: folder for the drawings and the bill. None: no files.\n"
+      "units: of the DXF files, \"mm\" or \"in\".\n"
+      "paper: also as PDF on sheets, \"a4\" or \"letter\".");
 }
 
 }  // namespace ripstop::python

@@ -43,8 +43,8 @@ void add_fastest(py::module_& module) {
       "Finds the largest airspeed [m/s] at line stretch at which every member keeps its margin of safety:\n"
       "ripstop load --fastest.\n\n"
       "margin: margin of safety that is kept. steady, opening: run folders with the drag area. Other "
-      "arguments "
-      "as\nof load(). The attribute advice of the result names the speed to use.");
+      "arguments as\n"
+      "of load(). The attribute advice of the result names the speed to use.");
 }
 
 }  // namespace

@@ -124,13 +124,12 @@ void add_size(py::module_& module) {
       py::arg("line_material") = py::none(), py::arg("packing_density_kg_m3") = packed_by_hand,
       py::arg("verify") = false, py::arg("progress") = py::none(), py::arg("coefficient") = "safe",
       py::arg("fly") = false,
-      "Designs a parachute for a payload [kg] and a descent rate [m/s]: ripstop size.\n\nfamily: one of "
-      "families().\nheight_m: height above sea level at which the rate is required, or density_kg_m3 "
-      "instead.\nverify: adjust the diameter with steady runs until the rate is met; with fly, with free "
-      "flights.\n"
-      "coefficient: \"axial\" (steady flow), \"descent\" (flown) or \"safe\", the smaller one.\nprogress: as "
-      "in "
-      "steady().");
+      "Designs a parachute for a payload [kg] and a descent rate [m/s]: ripstop size.\n\n"
+      "family: one of families().\n"
+      "height_m: height above sea level at which the rate is required, or density_kg_m3 instead.\n"
+      "verify: adjust the diameter with steady runs until the rate is met; with fly, with free flights.\n"
+      "coefficient: \"axial\" (steady flow), \"descent\" (flown) or \"safe\", the smaller one.\n"
+      "progress: as in steady().");
   module.def("families", &family_drags,
              "Returns all canopy families with the computed drag coefficients of their examples.");
   module.def(

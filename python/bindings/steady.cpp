@@ -208,17 +208,24 @@ void add_steady(py::module_& module) {
   module.def("steady", &steady, py::arg("case"), py::kw_only(), py::arg("progress") = py::none(),
              py::arg("threads") = 0, py::arg("out") = py::none(), py::arg("fresh") = false,
              py::arg("start") = py::none(), py::arg("mesh") = py::none(),
-             "Computes inflated shape, drag and loads in a steady flow: ripstop steady.\n\nprogress: called "
-             "with a SteadyIteration after every coupling iteration; an exception in it stops the\n  "
-             "run.\nthreads: number of threads; 0: coupling.threads of the case.\nout: run folder. A "
-             "finished run of this case is read from it, an interrupted run resumes. None: no\n  "
-             "files.\nfresh: replace the run in the folder.\nstart: finished run or its folder whose shape "
-             "and pressure are the "
-             "initial state; ignored for\n  another mesh. None: undeformed canopy.\nmesh: a Mesh in place of "
-             "the canopy of the case; "
-             "coefficients refer to the area of its cloth. Without\n  `out`.\n\nA result that is not "
-             "converged is also "
-             "returned: check `converged`. Forces are in [N], lengths in [m],\nspeeds in [m/s].");
+             "Computes inflated shape, drag and loads in a steady flow: ripstop steady.\n\n"
+             "progress: called with a SteadyIteration after every coupling iteration; an exception in it "
+             "stops the\n"
+             "  run.\n"
+             "threads: number of threads; 0: coupling.threads of the case.\n"
+             "out: run folder. A finished run of this case is read from it, an interrupted run resumes. "
+             "None: no\n"
+             "  files.\n"
+             "fresh: replace the run in the folder.\n"
+             "start: finished run or its folder whose shape and pressure are the initial state; ignored "
+             "for\n"
+             "  another mesh. None: undeformed canopy.\n"
+             "mesh: a Mesh in place of the canopy of the case; coefficients refer to the area of its "
+             "cloth. Without\n"
+             "  `out`.\n\n"
+             "A result that is not converged is also returned: check `converged`. Forces are in [N], "
+             "lengths in [m],\n"
+             "speeds in [m/s].");
 }
 
 }  // namespace ripstop::python

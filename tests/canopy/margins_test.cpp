@@ -56,6 +56,17 @@ TEST(Margins, OfUnknownStrengthAreReportedAndNeverTheWeakest) {
   EXPECT_EQ(margins_of({1, 0, {5000}, 0}, none, m.cloth, &m.tape, m.line, m.riser).weakest, "");
 }
 
+TEST(Margins, TheWeakestFollowsAChangeOfTheMembers) {
+  const Materials m;
+  Margins margins = margins_of({2000, 20, {300, 600}, 900}, none, m.cloth, &m.tape, m.line, m.riser);
+  std::erase_if(margins.members, [](const Margin& one) { return one.member == "tape"; });
+  take_weakest(margins);
+  EXPECT_EQ(margins.weakest, "line 2");
+  margins.members.clear();
+  take_weakest(margins);
+  EXPECT_EQ(margins.weakest, "");
+}
+
 TEST(Margins, OfATapeAreOnItsBreakLoadWhereItHasOne) {
   Materials m;
   m.tape.break_load_n = 200;

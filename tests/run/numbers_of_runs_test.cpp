@@ -369,35 +369,6 @@ TEST(RunNumbers, OfLargeFastOpeningsWithStiffLinesAreFinite) {
   }
 }
 
-// The estimate of --check: cloth predicted and corrected, and steps of the air in all its cells.
-TEST(RunNumbers, TheTimeOfACoupledInflationCountsTheFlowAndItsCellsAreCheckedFirst) {
-  Case given = small_opening_in_air();
-  given.flow.cells = {18, 18, 27};
-  const Settings resolved = resolve(opening_case(given));
-  const LoadSource source = load_source(resolved);
-  const auto solver = make_opening(with_engine(resolved, opening_problem(resolved, source, 1)));
-  const InflationState start = solver->start();
-  const double cloth =
-      solver->problem().settings.duration_s / start.step * solver->mesh().node_count() / 1.25e8;
-  EXPECT_GT(opening_seconds(*solver, start), 2 * cloth);
-  EXPECT_LT(cells_across(resolved), 10);
-  const std::vector<std::string> warnings = opening_warnings(resolved, *solver);
-  ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find("number of flow cells across the inflated canopy"), std::string::npos);
-}
-
-TEST(RunNumbers, AnOpeningAtTheRateOfDescentIsWarnedOf) {
-  Case given = small_opening_in_air();
-  given.payload.mass_kg = 2, given.flow.density_kg_m3 = 1.2;
-  for (const double share : {1.2, 3.0}) {
-    given.flow.speed_m_s = share * payload_first_speed(given, 1.2);
-    const Settings resolved = resolve(opening_case(given));
-    const InflationProblem problem = opening_problem(resolved, load_source(resolved), 1);
-    const auto solver = make_opening(with_engine(resolved, problem));
-    EXPECT_EQ(opening_warnings(resolved, *solver).size(), share < 1.5 ? 1u : 0u);
-  }
-}
-
 TEST(RunNumbers, ADampingIsSearchedOnTheMeasuredOpeningUnderThePressureOfTheProblem) {
   Case given = small_opening();
   given.inflation.duration_s = 2e-3;

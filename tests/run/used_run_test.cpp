@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ripstop/core/error.h"
+#include "ripstop/run/quality.h"
 #include "tests/refusal.h"
 
 namespace ripstop {
@@ -37,6 +38,16 @@ TEST(UsedRun, BeyondALimitOrNotConvergedIsRefusedWithTheReasonAndMarkedWhereItIs
   const RunEnd open = end_of_run(R"({"converged": false})", "runs/c");
   EXPECT_NE(refusal_of([&] { warnings_if_usable(open); }, ExitCode::bad_data).find("has not converged"),
             std::string::npos);
+}
+
+TEST(UsedRun, TheReasonOfARefusalIsTheWarningBeyondItsLimit) {
+  const Judgement judgement = judge({{"cells_across", 3}, {"energy_residual", 0.1}});
+  ASSERT_EQ(judgement.warnings.size(), 2u);
+  ASSERT_FALSE(judgement.usable);
+  const RunEnd end{"runs/a", judgement.warnings, judgement.usable};
+  const std::string refused = refusal_of([&] { warnings_if_usable(end); }, ExitCode::bad_data);
+  EXPECT_NE(refused.find(judgement.warnings[0]), std::string::npos) << refused;
+  EXPECT_EQ(refused.find(judgement.warnings[1]), std::string::npos) << refused;
 }
 
 TEST(UsedRun, AnOpeningThatHasNotSettledIsWarnedOfUnlessItDeceleratesAPayload) {

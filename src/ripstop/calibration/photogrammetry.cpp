@@ -97,12 +97,7 @@ Image read_image(const std::filesystem::path& file) {
   Image image;
   Origins origins;
   std::vector<Problem> problems;
-  Fields fields;
-  describe(fields, image);
-  read_table(fields, document, origins, problems);
-  Fields read;
-  describe(read, image);
-  check_values(read, origins, problems);
+  read_and_check([&](Fields& fields) { describe(fields, image); }, document, origins, problems);
   Findings findings(origins, problems);
   if (image.diameters.empty() && findings.sound({"diameter"}))
     findings.add("diameter", "", "", "is missing: write a [[diameter]] with name and apparent_m for each");

@@ -63,7 +63,7 @@ Margins margins_of(const MemberLoads& loads, const MarginFactors& f, const Fabri
                                 part.rated_load_n ? 1 : f.safety_factor));
     members.back().load_from = loads.hardware_from;
   }
-  if (const Margin* least = weakest(result)) result.weakest = least->member;
+  take_weakest(result);
   return result;
 }
 
@@ -72,6 +72,11 @@ const Margin* weakest(const Margins& margins) {
   for (const Margin& m : margins.members)
     if (m.used && (!least || *m.used > *least->used)) least = &m;
   return least;
+}
+
+void take_weakest(Margins& margins) {
+  const Margin* least = weakest(margins);
+  margins.weakest = least ? least->member : "";
 }
 
 }  // namespace ripstop::inline canopy

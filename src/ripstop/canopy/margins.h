@@ -83,5 +83,7 @@ HardwareNeed hardware_need(double load, const MarginFactors& factors);
 
 /// The weakest member; null when no strength is known.
 const Margin* weakest(const Margins& margins);
+/// Names it in `margins`, after a change of the members.
+void take_weakest(Margins& margins);
 
 }  // namespace ripstop::inline canopy

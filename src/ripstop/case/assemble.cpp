@@ -26,14 +26,17 @@ CanopyMesh in_flow(CanopyMesh mesh, const Settings& resolved) {
   return mesh;
 }
 
+CanopyMesh mesh_of(const std::optional<Cluster>& cluster, const Settings& resolved, const CanopyMesh* own) {
+  return cluster ? cluster->mesh() : parachute_mesh(resolved, own);
+}
+
 }  // namespace
 
 CanopyMesh parachute_mesh(const Settings& resolved, const CanopyMesh* own) {
   return own ? in_flow(*own, resolved) : parachute_mesh(resolved.parachute(), resolved);
 }
 
-CanopyMesh mesh_as_cut(const Settings& resolved) {
-  CanopyMesh mesh = parachute_mesh(resolved);
+CanopyMesh mesh_as_cut(CanopyMesh mesh, const Settings& resolved) {
   const double whole = parachute_mass(resolved), share = whole / (whole - mass_beyond(mesh, resolved));
   for (double& mass : mesh.mass) mass *= share;
   return mesh;
@@ -55,8 +58,7 @@ std::optional<Cluster> cluster_of(const Settings& resolved) {
 }
 
 CanopyMesh steady_mesh(const Settings& resolved, const CanopyMesh* own) {
-  const std::optional<Cluster> cluster = cluster_of(resolved);
-  return cluster ? cluster->mesh() : parachute_mesh(resolved, own);
+  return mesh_of(cluster_of(resolved), resolved, own);
 }
 
 FlowProblem flow_problem(const Settings& resolved) {
@@ -129,14 +131,15 @@ std::string why_full_box(const Settings& resolved, const CanopyMesh& mesh, const
 SteadyProblem steady_problem(const Settings& resolved, const CanopyMesh* own) {
   require_axial_stream(resolved.flow(), "a steady run");
   if (own) require_one_canopy(resolved, "a run with a mesh of your own");
-  SteadyProblem problem{steady_mesh(resolved, own),
+  std::optional<Cluster> cluster = cluster_of(resolved);
+  SteadyProblem problem{mesh_of(cluster, resolved, own),
                         flow_problem(resolved),
                         own ? cloth_area(*own) : nominal_area(resolved.parachute()),
                         resolved.coupling(),
                         std::nullopt,
                         {}};
   problem.own_mesh = own != nullptr;
-  problem.cluster = cluster_of(resolved);
+  problem.cluster = std::move(cluster);
   problem.reference_area *= canopy_count(resolved.written());
   if (const FlowSettings& flow = resolved.flow(); flow.unsteady) {
     const WatchKeys& keys = flow.watch;

@@ -12,18 +12,18 @@
 
 namespace ripstop::inline cases {
 
-/// The canopy's start shape with its skirt at flow.canopy_position_m, axis on x = y = 0, inlet at z = 0. With a
-/// `design` in place of the settings' own: of that, of the same materials. With a mesh of the user's `own` (own_mesh.h):
-/// that one, its plane z = 0 at flow.canopy_position_m.
+/// The canopy's start shape with its skirt at flow.canopy_position_m, axis on x = y = 0, inlet at z = 0. With a `design`
+/// in place of the settings' own: of that, of the same materials. With a mesh of the user's `own` (own_mesh.h): that one,
+/// its plane z = 0 at flow.canopy_position_m.
 CanopyMesh parachute_mesh(const Settings& resolved, const CanopyMesh* own = nullptr);
 CanopyMesh parachute_mesh(const Design& design, const Settings& resolved);
 /// The canopies of a cluster; absent for a single one.
 std::optional<Cluster> cluster_of(const Settings& resolved);
 /// The mesh of a steady run: of all canopies. Otherwise parachute_mesh().
 CanopyMesh steady_mesh(const Settings& resolved, const CanopyMesh* own = nullptr);
-/// The same with parachute_mass(): hems, allowances and loops of lines, which the mesh does not have, are added to all
-/// of its nodes in proportion.
-CanopyMesh mesh_as_cut(const Settings& resolved);
+/// A parachute_mesh() with parachute_mass(): hems, allowances and loops of lines, which the mesh does not have, are
+/// added to all of its nodes in proportion.
+CanopyMesh mesh_as_cut(CanopyMesh mesh, const Settings& resolved);
 /// The mass of these additions [kg].
 double mass_beyond(const CanopyMesh& mesh, const Settings& resolved);
 /// Box, air and the canopy cloth's resistance; its cut cells are left to the coupling.

@@ -358,8 +358,7 @@ class Importer {
         fmt::format("# From {} by `ripstop import`.\n", toml_quoted(std::string(source_), 500));
     for (const std::string& step : file_.instructions) text += "# Instruction: " + visible_line(step) + "\n";
     text += fmt::format(
-        "title = {}\n\n[parachute]\ntype = \"{}\"\ngores = {}\ncanopy_material = "
-        "\"imported-cloth\"\n",
+        "title = {}\n\n[parachute]\ntype = \"{}\"\ngores = {}\ncanopy_material = \"imported-cloth\"\n",
         toml_quoted(file_.name.empty() ? "imported" : file_.name, 100), result_.type, gores_);
     return text;
   }

@@ -55,7 +55,7 @@ double cluster_arm(const Case& given) {
   return usual_trailing_distance(given.parachute) + widest_part * inflated_diameter(given.parachute);
 }
 
-Vec3 room_for_cluster(const Case& given, double d) {
+Vec3 core_for_cluster(const Case& given, double d) {
   if (!given.cluster) return {};
   const ClusterLayout layout = layout_of(*given.cluster);
   return cluster_arm(given) * layout.width() + Vec3{0, 0, d * std::sin(layout.spread)};

@@ -32,7 +32,7 @@ int canopy_count(const Case& given);
 /// From the confluence to the middle of a canopy, about [m].
 double cluster_arm(const Case& given);
 /// By which the core of fine cells is larger than for one canopy of the inflated diameter `d`; 0 without a cluster [m].
-Vec3 room_for_cluster(const Case& given, double d);
+Vec3 core_for_cluster(const Case& given, double d);
 
 /// Settings that a cluster cannot have, and canopies that touch.
 void check_cluster(const Case& given, const FlowSettings& flow, Findings& findings);

@@ -24,9 +24,9 @@ void describe(Fields& fields, Wind& wind) {
   fields.number("direction_deg", wind.direction_deg, from(-360).up_to(360),
                 "Direction towards which the wind blows, from x to y.");
   fields.number("exponent", wind.exponent, from(0).up_to(1),
-                "Exponent p of the profile speed_m_s (h / reference_height_m)^p over the height h above the "
-                "ground; 0: the "
-                "same wind at all heights. The law describes the lowest few hundred metres.");
+                "Exponent p of the profile speed_m_s (h / reference_height_m)^p over the height h above "
+                "the ground; 0: the same wind at all heights. The law describes the lowest few hundred "
+                "metres.");
   fields.number("reference_height_m", wind.reference_height_m, above(0).up_to(10000),
                 "Height above the ground at which the wind has its speed.");
   fields.number("gust_m_s", wind.gust_m_s, from(-100).up_to(100),

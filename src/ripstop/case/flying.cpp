@@ -207,7 +207,7 @@ void require_payload(const Settings& flight) {
 FlightProblem flight_problem(const Settings& flight, std::vector<Vec3> shape, std::vector<double> pressure,
                              int threads) {
   FlightProblem problem = problem_at(flight, flight.flow().speed_m_s, threads);
-  problem.mesh = mesh_as_cut(flight);
+  problem.mesh = mesh_as_cut(std::move(problem.mesh), flight);
   problem.shape = std::move(shape), problem.pressure = std::move(pressure);
   return problem;
 }

@@ -244,8 +244,8 @@ class OpenRocketImporter {
       if (carried) speed = std::sqrt(2 * *carried * standard_gravity / (assumed_density * drag_area));
     } else {
       result_.not_mapped.push_back(
-          d_.automatic ? "C_D \"auto\": OpenRocket's own value is used there; compute it with "
-                         "ripstop steady"
+          d_.automatic ? "C_D \"auto\": OpenRocket's own value is used there; compute it with ripstop "
+                         "steady"
                        : "no C_D in the file; compute it with ripstop steady");
     }
     if (mass)

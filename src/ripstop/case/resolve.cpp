@@ -154,7 +154,7 @@ ClusterRoom room_for_cluster(const Case& written, const FlowSettings& flow, doub
   ClusterRoom room;
   if (!written.cluster || flow.porosity_model != PorosityModel::sheet) return room;
   const double wider = std::sqrt(double(written.cluster->canopies)) - 1, growth = sheet_defaults.growth;
-  room.core = room_for_cluster(written, d);
+  room.core = core_for_cluster(written, d);
   const Vec3 box = d * sheet_box;
   const auto widest = [&](double one, double core, double more) {
     return std::max({wider * one, more, least_box_over_core * (core + more) - one});

@@ -142,8 +142,7 @@ void FlightAnalysis::drop_outliers() {
     if (off[i] <= limit) times.push_back(t_[i]), heights.push_back(h_[i]);
   if (times.size() < n)
     log_.notes.push_back(
-        fmt::format("{} samples of the height lie more than {:.3g} m from their neighbours "
-                    "and are left out",
+        fmt::format("{} samples of the height lie more than {:.3g} m from their neighbours and are left out",
                     n - times.size(), limit));
   t_ = std::move(times), h_ = std::move(heights);
 }

@@ -177,8 +177,7 @@ double speed_difference_at_stretch(const Coasting& payload, const Coasting& cano
   check(canopy.drag_area, "drag area (m2) of the packed canopy");
   if (!(payload.drag_area >= 0))
     throw Error(ExitCode::usage,
-                fmt::format("a snatch with a drag area (m2) of the payload of {:g}: must be 0 "
-                            "or above",
+                fmt::format("a snatch with a drag area (m2) of the payload of {:g}: must be 0 or above",
                             payload.drag_area));
   const double bp = 0.5 * density * payload.drag_area / payload.mass;
   const double bc = 0.5 * density * canopy.drag_area / canopy.mass;

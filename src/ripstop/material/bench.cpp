@@ -94,12 +94,7 @@ Bench read_bench(const std::filesystem::path& file) {
   try {
     const Document document = parse_toml(read_text_file(file), file.string());
     Origins origins;
-    Fields fields;
-    describe(fields, bench);
-    read_table(fields, document, origins, problems);
-    Fields chosen;
-    describe(chosen, bench);
-    check_values(chosen, origins, problems);
+    read_and_check([&](Fields& fields) { describe(fields, bench); }, document, origins, problems);
     Findings findings(origins, problems);
     const auto need = [&](const char* key, bool there, const char* why) {
       if (!there && findings.sound({key})) findings.add(key, "", "", fmt::format("is missing: {}", why));

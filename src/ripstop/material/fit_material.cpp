@@ -247,8 +247,7 @@ void make_fits(const Bench& bench, MaterialFit& fit) {
     if (std::abs(f.offset.value) > 0.02 * carried)
       fit.warnings.push_back(
           fmt::format("the {} fit has K_0 = {:.3g}, {:.1f} % of its load at strain {:.3g}, which no spring "
-                      "law carries; fit with "
-                      "zero_offset = true",
+                      "law carries; fit with zero_offset = true",
                       direction.name, f.offset.value, 100 * std::abs(f.offset.value) / carried, working));
     if (f.k.front().value <= 0)
       throw Error(
@@ -378,9 +377,9 @@ std::vector<std::string> material_warnings(const Material& material, double larg
         if (const std::optional<double> specific = specific_strength(m);
             specific && *specific > strongest_fibre)
           list.push_back(
-              fmt::format("{}: its strength ({}) is {:.3g} N/tex of the mass that carries it; the strongest "
-                          "fibre has {:.3g} "
-                          "N/tex: check the units of break load and mass, or give a break load",
+              fmt::format("{}: its strength ({}) is {:.3g} N/tex of the mass that carries it; the "
+                          "strongest fibre has {:.3g} N/tex: check the units of break load and mass, or "
+                          "give a break load",
                           m.name, strength_of(m).from, *specific / 1e6, strongest_fibre / 1e6));
         return list;
       },

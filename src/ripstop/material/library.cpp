@@ -256,12 +256,8 @@ Material read_material(const std::filesystem::path& file) {
     Document document = parse_toml(read_text_file(file), file.string());
     rename_old_keys(document.root);
     Origins origins;
-    Fields fields;
-    describe_kind(fields, material);  // a library file is complete: no `base`
-    read_table(fields, document, origins, problems);
-    Fields chosen;
-    describe_kind(chosen, material);
-    check_values(chosen, origins, problems);
+    // A library file is complete: no `base`.
+    read_and_check([&](Fields& fields) { describe_kind(fields, material); }, document, origins, problems);
     Findings findings(origins, problems);
     check_material(material, "", findings);
     if (auto* fabric = std::get_if<Fabric>(&material))

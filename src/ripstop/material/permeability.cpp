@@ -82,8 +82,7 @@ PressureDrop ergun(const ErgunCloth& cloth, const ErgunAir& air) {
   if (!(g > 0) || !(g < 1) || !(t > 0))
     throw Error(
         ExitCode::bad_data,
-        fmt::format("Ergun's law needs a porosity between 0 and 1 and a thickness above 0, not {} and "
-                    "{} m",
+        fmt::format("Ergun's law needs a porosity between 0 and 1 and a thickness above 0, not {} and {} m",
                     g, t));
   const double d = 6 * (1 - g) * t, g3 = g * g * g;
   return {150 * air.viscosity * (1 - g) * (1 - g) * t / (d * d * g3),

@@ -42,4 +42,11 @@ inline std::vector<int> line_joints(const CanopyMesh& mesh) {
   return joints;
 }
 
+/// Mean of the skirt's nodes at the positions `x` [m].
+inline Vec3 skirt_centroid(const CanopyMesh& mesh, const std::vector<Vec3>& x) {
+  Vec3 sum;
+  for (const int node : mesh.rigging.skirt_nodes) sum += x[node];
+  return sum / static_cast<double>(mesh.rigging.skirt_nodes.size());
+}
+
 }  // namespace ripstop::inline parachute

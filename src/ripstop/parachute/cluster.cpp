@@ -15,12 +15,6 @@ namespace {
 
 constexpr double full_turn = 2 * std::numbers::pi;
 
-Vec3 centroid_of_skirt(const CanopyMesh& mesh, const std::vector<Vec3>& x) {
-  Vec3 sum;
-  for (const int node : mesh.rigging.skirt_nodes) sum += x[node];
-  return sum / static_cast<double>(mesh.rigging.skirt_nodes.size());
-}
-
 /// v after the smallest rotation that brings the unit vector `from` to the z axis (Rodrigues).
 Vec3 raised(Vec3 v, Vec3 from) {
   const Vec3 axis = cross(from, {0, 0, 1});
@@ -94,7 +88,7 @@ Cluster::Cluster(CanopyMesh one, ClusterLayout layout) : one_(std::move(one)), l
                             "nodes and {} nodes at its skirt",
                             one_.fixed.size(), one_.rigging.skirt_nodes.size()));
   end_of_riser_ = one_.start[one_.fixed.front()];
-  const double length = centroid_of_skirt(one_, one_.start).z - end_of_riser_.z;
+  const double length = skirt_centroid(one_, one_.start).z - end_of_riser_.z;
   confluence_ = end_of_riser_ + Vec3{0, 0, length * (1 - std::cos(layout_.spread))};
 }
 
@@ -146,7 +140,7 @@ std::vector<Vec3> Cluster::overlaid(const std::vector<Vec3>& all) const {
 }
 
 std::vector<Vec3> Cluster::upright(std::vector<Vec3> own) const {
-  const Vec3 arm = centroid_of_skirt(one_, own) - end_of_riser_;
+  const Vec3 arm = skirt_centroid(one_, own) - end_of_riser_;
   const Vec3 axis = arm / norm(arm);
   for (Vec3& p : own) p = end_of_riser_ + raised(p - end_of_riser_, axis);
   return own;

@@ -40,4 +40,14 @@ inline constexpr const char* knacke_transcribed =
     "Knacke, NWC TP 6575, Tables 5-1 and 5-2, infinite mass; value agrees with a public transcription, not "
     "verified in print";
 
+/// Of a shape that the tables do not have, with its required nodes.
+constexpr Experience untabulated(int cloth_nodes) {
+  return {
+      .projected_ratio = {},
+      .drag_coefficient = {},
+      .opening_coefficient = 1.8,
+      .opening_source = "not in Knacke's tables: the largest value of the solid canopies, on the safe side",
+      .cloth_nodes = cloth_nodes};
+}
+
 }  // namespace ripstop::inline parachute

@@ -88,12 +88,7 @@ CanopyMesh build_canopy(const Polygon& canopy, const Design& design, const PartM
 }
 
 Experience experience(const Polygon&) {
-  return {
-      .projected_ratio = {},
-      .drag_coefficient = {},
-      .opening_coefficient = 1.8,
-      .opening_source = "not in Knacke's tables: the largest value of the solid canopies, on the safe side",
-      .cloth_nodes = 1500};
+  return untabulated(1500);
 }
 
 constinit const CanopyFamily Polygon::family = family_of<Polygon>("polygon", "hexagon");

@@ -204,12 +204,7 @@ CanopyMesh build_canopy(const ProfileCanopy& canopy, const Design& design, const
 
 Experience experience(const ProfileCanopy&) {
   // The number of nodes is that of half an ellipsoid; flatter ones need more.
-  return {
-      .projected_ratio = {},
-      .drag_coefficient = {},
-      .opening_coefficient = 1.8,
-      .opening_source = "not in Knacke's tables: the largest value of the solid canopies, on the safe side",
-      .cloth_nodes = 1500};
+  return untabulated(1500);
 }
 
 constinit const CanopyFamily ProfileCanopy::family = family_of<ProfileCanopy>("profile", "elliptical");

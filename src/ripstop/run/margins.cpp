@@ -20,11 +20,6 @@ void add_hem(double line_load, const MarginFactors& factors, const Fabric& cloth
   margins.members.insert(margins.members.begin() + 1, std::move(hem));
 }
 
-void take_weakest(Margins& margins) {
-  const Margin* least = weakest(margins);
-  margins.weakest = least ? least->member : "";
-}
-
 }  // namespace
 
 Margins case_margins(const Settings& resolved, const CanopyMesh& mesh,

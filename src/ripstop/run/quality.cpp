@@ -71,10 +71,10 @@ Judgement judge(const std::vector<QualityValue>& values) {
     const bool refused = limit.beyond(v.value, limit.refuse);
     judgement.usable = judgement.usable && !refused;
     const auto [value, acceptable] = rounded_apart(limit.shown_as * v.value, limit.shown_as * limit.warn);
-    judgement.warnings.push_back(fmt::format("{}: {}{}, {} {}{} is acceptable; {}{}", limit.name, value,
-                                             limit.unit, limit.at_least ? "at least" : "up to", acceptable,
-                                             limit.unit, refused ? "the result must not be used; " : "",
-                                             limit.remedy));
+    judgement.warnings.push_back(
+        fmt::format("{}: {}{}, {} {}{} is acceptable; {}{}", limit.name, value, limit.unit,
+                    limit.at_least ? "at least" : "up to", acceptable, limit.unit,
+                    refused ? fmt::format("the result {}; ", refused_text) : "", limit.remedy));
   }
   return judgement;
 }

@@ -26,6 +26,10 @@ struct QualityLimit {
 /// All of them.
 const std::vector<QualityLimit>& quality_limits();
 
+/// In the warning of a value beyond `refuse`, and of a result with one. Results are files with warnings as text: these
+/// words also identify the reason why a run is not accepted as an input.
+inline constexpr const char* refused_text = "must not be used";
+
 /// Throws std::logic_error for a key that the list does not have.
 const QualityLimit& quality_limit(std::string_view key);
 

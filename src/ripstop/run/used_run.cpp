@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "ripstop/core/error.h"
+#include "ripstop/run/quality.h"
 #include "ripstop/run/run_folder.h"
 
 namespace ripstop::inline run {
@@ -18,7 +19,6 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 constexpr const char* not_converged_text = "the coupling has not converged";
-constexpr const char* refused_text = "must not be used";
 
 bool flag(const json& result, const char* key) {
   const auto found = result.find(key);

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "ripstop/case/openrocket_import.h"
+#include "ripstop/case/payload.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/process.h"
 #include "ripstop/run/descent/flown.h"
@@ -322,15 +323,16 @@ TEST_F(Export, ARunWithAPayloadHasTheDeploymentSpeedOfSizeAndStatesIt) {
   run.resolved = resolve(descends), run.result.speed = 5;
   const ExportedParachute p = exported(run);
   EXPECT_TRUE(p.speed_assumed);
-  EXPECT_EQ(p.deployment_speed, 20);
+  EXPECT_EQ(p.deployment_speed, least_deployment_speed);
   EXPECT_DOUBLE_EQ(p.lag, exported(run, 20).lag);
   EXPECT_EQ(exported(run, 12).deployment_speed, 12);
+  const std::string assumed =
+      fmt::format("at {0:g} m/s (assumed, {0:g} m/s or {1:g} times the rate of descent of 5 m/s",
+                  least_deployment_speed, deployment_over_descent);
   for (const std::string& text : {rocketpy_text(p, "apogee"), openrocket_design({{{p, "apogee"}}})})
-    EXPECT_NE(text.find("at 20 m/s (assumed, 20 m/s or three times the rate of descent of 5 m/s"),
-              std::string::npos)
-        << text;
+    EXPECT_NE(text.find(assumed), std::string::npos) << text;
   run.result.speed = 9;
-  EXPECT_EQ(exported(run).deployment_speed, 27);
+  EXPECT_EQ(exported(run).deployment_speed, 9 * deployment_over_descent);
 }
 
 TEST_F(Export, WithAFlightHasItsCoefficientInDescentAndStatesSo) {

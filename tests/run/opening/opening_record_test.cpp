@@ -140,6 +140,29 @@ TEST_F(OpeningRecords, FillingIsThatOfTheResultAndRefusedWhereThereIsNone) {
   EXPECT_EQ(loads.stages.at(0).caution, "");
 }
 
+// The largest safe speed is searched without reading the folders at each speed.
+TEST_F(OpeningRecords, TheLoadsAtSeveralSpeedsNeedOneReadingOfTheFolders) {
+  write(opening_history, nullptr, nullptr,
+        R"({"peak_load_n": 500, "filling_distance_diameters": 6.5, "area_growth_exponent": 2.5,
+            "warnings": ["coarse"]})");
+  LoadRequest asked;
+  asked.payload_mass = 2.4, asked.path_angle = 0, asked.opening = asked.filling_from = folder;
+  const Settings resolved = resolve(given);
+  const LoadInputs inputs = load_inputs(resolved, asked);
+  std::vector<std::string> results;
+  for (const double speed : {20.0, 60.0}) {
+    asked.speed = speed;
+    results.push_back(to_json(run_load(resolved, asked)));
+  }
+  EXPECT_NE(results[0].find("coarse"), std::string::npos);
+  std::filesystem::remove_all(folder);
+  EXPECT_THROW(run_load(resolved, asked), Error);
+  for (const double speed : {20.0, 60.0}) {
+    asked.speed = speed;
+    EXPECT_EQ(to_json(run_load(resolved, asked, inputs)), results[speed > 20]) << speed;
+  }
+}
+
 TEST_F(OpeningRecords, OfAnotherParachuteOrWithoutALoadIsRefused) {
   write(opening_history);
   const Case larger = checked(flat_circular_case(2.1, 600, 10));

@@ -456,6 +456,16 @@ void check_values(const Fields& fields, const Origins& origins, std::vector<Prob
   Checker(origins, problems).table(fields, "");
 }
 
+void read_and_check(const std::function<void(Fields&)>& describe, const Document& document, Origins& origins,
+                    std::vector<Problem>& problems) {
+  Fields empty;
+  describe(empty);
+  read_table(empty, document, origins, problems);
+  Fields filled;
+  describe(filled);
+  check_values(filled, origins, problems);
+}
+
 bool is_name(const std::string& text) {
   const auto allowed = [](unsigned char c) {
     return c < 0x80 && (std::isalnum(c) || c == '.' || c == '_' || c == '-');

@@ -1,6 +1,7 @@
 // Reads a parsed table into described structs and collects everything that is wrong with it.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,10 @@ void read_table(const Fields& fields, const Document& document, Origins& origins
 /// Reports every value outside its range, text that may not be, and lists of a wrong length, wherever the
 /// values came from; a key that already has a problem is not looked at again.
 void check_values(const Fields& fields, const Origins& origins, std::vector<Problem>& problems);
+
+/// Both: `describe` is called again after reading, since the lists and rows of a struct then have their elements.
+void read_and_check(const std::function<void(Fields&)>& describe, const Document& document, Origins& origins,
+                    std::vector<Problem>& problems);
 
 /// True for letters, digits, '.', '_', '-' that begin with a letter or digit, at most 64.
 bool is_name(const std::string& text);

@@ -260,7 +260,8 @@ class Columns {
     std::vector<Crossing> crossings;
     crossings.reserve(count);
     for (std::size_t n = 0; n < count; ++n) crossings.push_back(crossing_of(faces[first + n], hits[0]));
-    std::vector<const Hit*> beside;  // near a hem, lines that meet the sheet where the central one does not
+    std::vector<const Hit*>
+        off_centre;  // near a hem, lines that meet the sheet where the central one does not
     for (const Hit& h : hits) {
       std::size_t nearest = count;
       double closest = 1;
@@ -279,7 +280,7 @@ class Columns {
         crossings[nearest].normals += area * normal;
         crossings[nearest].turned += area * normal_of(normal);
       } else if (near_hem(h)) {
-        beside.push_back(&h);
+        off_centre.push_back(&h);
       } else {
         result.left_over.push_back({cell_of(h), share(h)});
       }
@@ -294,7 +295,7 @@ class Columns {
       face.outward = sum / norm(sum);
       face.normal = normal_of(face.outward);
     }
-    hem_faces(beside, hems, result);
+    hem_faces(off_centre, hems, result);
   }
 
   /// A face where the central line of its column has met the sheet.
@@ -313,19 +314,19 @@ class Columns {
   }
 
   /// Faces that the sheet covers in part, from lines of one column in the order of their intersections.
-  void hem_faces(const std::vector<const Hit*>& beside, HemsAbout& hems, ColumnFaces& result) const {
-    for (std::size_t begin = 0; begin < beside.size();) {
+  void hem_faces(const std::vector<const Hit*>& off_centre, HemsAbout& hems, ColumnFaces& result) const {
+    for (std::size_t begin = 0; begin < off_centre.size();) {
       std::size_t end = begin + 1;
-      while (end < beside.size() &&
-             beside[end]->at - beside[end - 1]->at < reach * width_at(beside[end]->at)) {
+      while (end < off_centre.size() &&
+             off_centre[end]->at - off_centre[end - 1]->at < reach * width_at(off_centre[end]->at)) {
         ++end;
       }
       // A line that meets the sheet and leaves it again passes no hem, but where the sheet is seen edgewise.
       std::array<int, lines * lines> crossings{};
-      for (std::size_t n = begin; n < end; ++n) ++crossings[beside[n]->line];
+      for (std::size_t n = begin; n < end; ++n) ++crossings[off_centre[n]->line];
       std::vector<const Hit*> across;
       for (std::size_t n = begin; n < end; ++n) {
-        if (crossings[beside[n]->line] % 2 == 1) across.push_back(beside[n]);
+        if (crossings[off_centre[n]->line] % 2 == 1) across.push_back(off_centre[n]);
       }
       const Hit* middle = across.empty() ? nullptr : across[across.size() / 2];
       SheetFace* face = middle ? add(*middle, result.faces) : nullptr;
@@ -345,8 +346,8 @@ class Columns {
         }
       }
       for (std::size_t n = begin; n < end; ++n) {
-        face ? void(face->area += share(*beside[n]))
-             : result.left_over.push_back({cell_of(*beside[n]), share(*beside[n])});
+        face ? void(face->area += share(*off_centre[n]))
+             : result.left_over.push_back({cell_of(*off_centre[n]), share(*off_centre[n])});
       }
       begin = end;
     }

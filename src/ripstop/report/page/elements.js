@@ -16,6 +16,20 @@ function element(tag, attributes = {}, ...children) {
   return made;
 }
 
+/** The button that switches between the colours of the system, light and dark ones; redraw() repaints canvases. */
+function themeButton(redraw) {
+  const order = ["auto", "light", "dark"], button = document.getElementById("theme");
+  const set = (name) => {
+    if (name === "auto") delete document.documentElement.dataset.theme; else document.documentElement.dataset.theme = name;
+    button.textContent = `Theme: ${name}`;
+    button.dataset.now = name;
+    redraw();
+  };
+  button.addEventListener("click", () => set(order[(order.indexOf(button.dataset.now) + 1) % 3]));
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
+  set("auto");
+}
+
 const Numbers = (() => {
   /** `digits` significant ones; whole numbers whole; texts as they are. */
   function shown(value, digits = 5) {

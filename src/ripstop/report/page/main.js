@@ -120,20 +120,6 @@ const Page = (() => {
     select(Page.selected);
   }
 
-  function themes() {
-    const order = ["auto", "light", "dark"], button = document.getElementById("theme");
-    const redraw = () => { for (const figure of figures) if (figure.drawn) figure.draw(); shapes?.viewer.draw(); };
-    const set = (name) => {
-      if (name === "auto") delete document.documentElement.dataset.theme; else document.documentElement.dataset.theme = name;
-      button.textContent = `Theme: ${name}`;
-      button.dataset.now = name;
-      redraw();
-    };
-    button.addEventListener("click", () => set(order[(order.indexOf(button.dataset.now) + 1) % 3]));
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
-    set("auto");
-  }
-
   async function start() {
     const report = Data.read();
     document.getElementById("title").textContent = report.title;
@@ -147,7 +133,7 @@ const Page = (() => {
     }
     report.runs.forEach((run, i) => sections.push(section(run, i)));
     main.append(tabs(report.runs), ...sections.map((one) => one.node));
-    themes();
+    themeButton(() => { for (const figure of figures) if (figure.drawn) figure.draw(); shapes?.viewer.draw(); });
     select(0);
     window.addEventListener("beforeprint", preparePaper);
     window.addEventListener("afterprint", backToScreen);

@@ -29,8 +29,8 @@ void take_deployment_speed(const FinishedSteady& run, const std::optional<double
   p.deployment_speed_from = given ? "given" : "speed of the run";
   if (p.speed_assumed)
     p.deployment_speed_from =
-        fmt::format("assumed, 20 m/s or three times the rate of descent of {:.3g} m/s, as ripstop size",
-                    run.result.speed);
+        fmt::format("assumed, {:g} m/s or {:g} times the rate of descent of {:.3g} m/s, as ripstop size",
+                    least_deployment_speed, deployment_over_descent, run.result.speed);
   require_positive("deployment speed (m/s)", p.deployment_speed);
 }
 
@@ -40,10 +40,8 @@ std::string axial_warning(const Settings& resolved, double uncertainty, const Ex
       resolved, {p.drag_coefficient, "", std::max(usual_drag_uncertainty, uncertainty), p.basis});
   return fmt::format(
       "{}: the drag area of {:.4g} m2 is axial; in descent its range is {:.4g} to {:.4g} m2, C_D {:.3f} to "
-      "{:.3f} "
-      "on S0 ({}), as for ripstop recovery. The exported standard deviation of {:.2g} % does not contain "
-      "this "
-      "range: repeat the analysis with both ends, or export a flight with --flight",
+      "{:.3f} on S0 ({}), as for ripstop recovery. The exported standard deviation of {:.2g} % does not "
+      "contain this range: repeat the analysis with both ends, or export a flight with --flight",
       p.title, p.drag_area, range.low * p.nominal_area, range.high * p.nominal_area, range.low, range.high,
       range.from, 100 * p.drag_area_deviation / p.drag_area);
 }

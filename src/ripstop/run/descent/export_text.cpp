@@ -84,9 +84,8 @@ std::string comment_of(const ExportedStage& stage, const std::string& name) {
   for (const std::string& text : p.warnings) warnings += "# Warning: " + literal(text) + "\n";
   return fmt::format(
              "# {}: drag area {:.4f} +- {:.4f} m2 (numerical uncertainty of the run). Lag: {}.\n"
-             "# Reference area of drag_coefficient: pi radius^2 = {:.4f} m2, as RocketPy defines it. On the "
-             "nominal "
-             "area\n# S0 = {:.4f} m2 the drag coefficient of the open canopy is C_D = {:.4f}.\n"
+             "# Reference area of drag_coefficient: pi radius^2 = {:.4f} m2, as RocketPy defines it. On "
+             "the nominal area\n# S0 = {:.4f} m2 the drag coefficient of the open canopy is C_D = {:.4f}.\n"
              "# This coefficient is {}.\n",
              literal(name), p.drag_area, p.drag_area_uncertainty, p.lag_from,
              std::numbers::pi * p.radius * p.radius, p.nominal_area, p.drag_coefficient, basis_text(p)) +

@@ -270,7 +270,7 @@ void add_separation(const Settings& resolved, double separation, Margins& margin
   for (std::size_t i = 0; i < margins.members.size(); ++i)
     if (Margin& m = margins.members[i]; resolved.hardware().contains(m.member) && m.load < separation)
       m = separated.members.at(i);
-  if (const Margin* least = weakest(margins)) margins.weakest = least->member;
+  take_weakest(margins);
 }
 
 RecoveryStage stage_of(const RecoveryCanopy& canopy, std::size_t i, const std::vector<Flown>& flights,

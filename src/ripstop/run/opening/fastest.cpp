@@ -15,7 +15,6 @@
 #include "ripstop/core/words.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/steady/warnings.h"
-#include "ripstop/run/used_run.h"
 
 namespace ripstop::inline run {
 namespace {
@@ -26,8 +25,8 @@ constexpr double speed_tolerance = 1e-3;  // relative
 /// The loads of one parachute by every method, at any speed.
 class LoadsAtSpeed {
  public:
-  LoadsAtSpeed(const Settings& resolved, LoadRequest request)
-      : resolved_(resolved), request_(std::move(request)) {
+  LoadsAtSpeed(const Settings& resolved, LoadRequest request, const LoadInputs& inputs)
+      : resolved_(resolved), request_(std::move(request)), inputs_(inputs) {
     request_.descent = false;
   }
 
@@ -37,7 +36,7 @@ class LoadsAtSpeed {
     if (known != results_.end()) return known->second;
     LoadRequest asked = request_;
     asked.speed = speed;
-    return results_.emplace(speed, run_load(resolved_, asked)).first->second;
+    return results_.emplace(speed, run_load(resolved_, asked, inputs_)).first->second;
   }
 
   /// Infinite at a speed at which lines or riser break; nothing where no speed difference is known.
@@ -69,6 +68,7 @@ class LoadsAtSpeed {
  private:
   const Settings& resolved_;
   LoadRequest request_;
+  const LoadInputs& inputs_;
   mutable std::map<double, double> snatches_;
   mutable std::map<double, LoadResult> results_;
 };
@@ -96,8 +96,8 @@ MethodPeak design_peak(const LoadResult& r, const std::string& method, double le
   return peak;
 }
 
-/// The largest speed from `low`, at which `keeps` is true, up to the fastest deployment at which `keeps` is true; nothing: it is true at all of
-/// them.
+/// The largest speed at which `keeps` is true, from `low`, where it is, to the fastest deployment; nothing: it is true
+/// there too.
 template <class Keeps>
 std::optional<double> largest_speed(double low, Keeps&& keeps) {
   double high = fastest_deployment;
@@ -190,7 +190,7 @@ std::string to_json(const FastestResult& result) {
   return json_text(result);
 }
 
-FastestResult run_fastest(const Settings& resolved, LoadRequest request, double margin,
+FastestResult run_fastest(const Settings& resolved, const LoadRequest& request, double margin,
                           std::optional<LoadUncertainty> known, double least_load) {
   require_one_canopy(resolved, "an opening load");
   if (!(margin >= 0) || !std::isfinite(margin))
@@ -203,16 +203,14 @@ FastestResult run_fastest(const Settings& resolved, LoadRequest request, double 
     throw Error(ExitCode::usage,
                 "a measured load belongs to one speed: leave out --measured-load for the fastest deployment");
   FastestResult r;
-  // A drag area that a run provides is read once.
-  const DragCoefficient drag = opening_drag_coefficient(resolved, request);
-  r.warnings = warnings_of_used({request.steady, request.opening, request.filling_from});
-  request.drag_coefficient = drag.value, request.steady.clear();
-  const LoadsAtSpeed loads(resolved, request);
+  const LoadInputs inputs = load_inputs(resolved, request);
+  r.warnings = inputs.warnings;
+  const LoadsAtSpeed loads(resolved, request, inputs);
   const LoadResult& fast = loads.at(fastest_deployment);
   r.title = fast.title, r.payload_mass = fast.payload_mass, r.parachute_mass = fast.parachute_mass;
   r.height = fast.height, r.density = fast.density, r.air_source = fast.air_source;
   r.path_angle = request.path_angle, r.margin = margin;
-  LoadUncertainty uncertainty = known ? std::move(*known) : load_uncertainty(drag);
+  LoadUncertainty uncertainty = known ? std::move(*known) : load_uncertainty(inputs.drag);
   r.load_uncertainty = uncertainty.value, r.load_uncertainty_from = std::move(uncertainty.from);
   const double slowest =
       std::max(slowest_deployment, 1.001 * slowest_opening(r.payload_mass + r.parachute_mass,

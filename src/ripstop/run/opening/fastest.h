@@ -79,12 +79,11 @@ std::string to_json(const FastestResult& result);
 /// The speed of `request` is not used. The load of a method is the largest of all reefed stages and of the full opening;
 /// speeds are found by bisection. The uncertainty of a load is that of the drag area and the scatter of repeated
 /// openings (opening_scatter), as independent parts. Lines, riser and hardware also have to carry the snatch load at that
-/// speed (snatch_of()), which is taken without an uncertainty. The design method
-/// is a coupled opening that has filled, else infinite mass or a larger load of the computed opening. `known` replaces
-/// load_uncertainty() of the drag coefficient, and the canopy carries the `least_load` [N] at any speed. Throws
-/// Error(usage) as run_load(), for a margin below 0, and for a parachute in which no strength of lines, tape, riser and
-/// hardware is known.
-FastestResult run_fastest(const Settings& resolved, LoadRequest request, double margin = 0,
+/// speed (snatch_of()), which is taken without an uncertainty. The design method is a coupled opening that has filled,
+/// else infinite mass or a larger load of the computed opening. `known` replaces load_uncertainty() of the drag
+/// coefficient, and the canopy carries the `least_load` [N] at any speed. Throws Error(usage) as run_load(), for a margin
+/// below 0, and for a parachute in which no strength of lines, tape, riser and hardware is known.
+FastestResult run_fastest(const Settings& resolved, const LoadRequest& request, double margin = 0,
                           std::optional<LoadUncertainty> known = {}, double least_load = 0);
 
 /// result.json.

@@ -54,9 +54,8 @@ std::optional<std::string> handbook_disagreement(double computed, std::optional<
   return fmt::format(
       "the computed opening load of {} N is {:.2g} times the {} finite-mass handbook load ({}: {} N). The "
       "handbook methods assume a filling distance that was measured on larger and faster canopies{}. The "
-      "filling time depends on the deployment; design for at least {} N, the highest of these loads, unless "
-      "the "
-      "load of your parachute is measured",
+      "filling time depends on the deployment; design for at least {} N, the highest of these loads, "
+      "unless the load of your parachute is measured",
       rounded(computed), computed / nearest.load, above ? "highest" : "lowest", nearest.method,
       rounded(nearest.load),
       distance

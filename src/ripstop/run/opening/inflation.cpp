@@ -161,6 +161,12 @@ std::vector<std::string> slow_opening_warnings(const Settings& resolved) {
       rounded(stream.speed_m_s, 3), rounded(rate, 3))};
 }
 
+/// Cells of the flow that are too coarse for the canopy; a uniform pressure has none.
+std::vector<std::string> coarse_cells_warnings(const Settings& resolved, const Opening& solver) {
+  if (!solver.air()) return {};
+  return judge({{"cells_across", cells_across(resolved)}}).warnings;
+}
+
 void take_quality(InflationResult& r, const Settings& resolved, const Opening& solver,
                   const InflationHistory& history) {
   r.energy_residual = energy_residual(history.frames);
@@ -291,9 +297,7 @@ std::string to_json(const InflationResult& result) {
 
 std::vector<std::string> opening_warnings(const Settings& resolved, const Opening& solver) {
   std::vector<std::string> warnings = slow_opening_warnings(resolved);
-  if (solver.air())
-    for (std::string& text : judge({{"cells_across", cells_across(resolved)}}).warnings)
-      warnings.push_back(std::move(text));
+  for (std::string& text : coarse_cells_warnings(resolved, solver)) warnings.push_back(std::move(text));
   return warnings;
 }
 
@@ -322,8 +326,8 @@ InflationSolution run_inflation(const Settings& resolved, const LoadSource& sour
   auto& [result, state, history] = solution;
   state = solver.start();
   observer.begin(solver, state, history);
-  const std::vector<std::string> coarse = opening_warnings(resolved, solver);
-  for (const std::string& text : coarse) observer.warned(text);
+  for (const std::string& text : opening_warnings(resolved, solver)) observer.warned(text);
+  const std::vector<std::string> coarse = coarse_cells_warnings(resolved, solver);
   while (state.blocks < solver.blocks()) {
     const std::vector<HistoryRow> rows = advanced(solver, state, history, coarse);
     history.rows.insert(history.rows.end(), rows.begin(), rows.end());

@@ -181,7 +181,8 @@ struct InflationSolution {
   InflationHistory history;
 };
 
-/// Warnings of an opening before the computation: cells of the flow that are too coarse for the canopy.
+/// Warnings of an opening before the computation: a start at the rate of descent, and cells of the flow that are too
+/// coarse for the canopy.
 std::vector<std::string> opening_warnings(const Settings& resolved, const Opening& solver);
 
 /// How long cloth and air of an opening will take on one thread, about, at the step that it begins with [s].

@@ -22,7 +22,6 @@
 #include "ripstop/run/json.h"
 #include "ripstop/run/opening/filling.h"
 #include "ripstop/run/opening/handbook.h"
-#include "ripstop/run/opening/opening_record.h"
 #include "ripstop/run/steady/warnings.h"
 #include "ripstop/run/used_run.h"
 
@@ -75,12 +74,13 @@ double ratio_to_standard(const LoadResult& r) {
 }
 
 /// Opening and filling coefficients: as asked, else the handbook's of the family.
-void choose_coefficients(const Settings& resolved, const LoadRequest& request, LoadResult& r) {
+void choose_coefficients(const Settings& resolved, const LoadRequest& request, const LoadInputs& inputs,
+                         LoadResult& r) {
   const Experience known = experience(resolved.parachute());
   r.reference_area = nominal_area(resolved.parachute());
   r.nominal_diameter = nominal_diameter(resolved.parachute());
-  DragCoefficient drag = opening_drag_coefficient(resolved, request);
-  r.drag_coefficient = drag.value, r.drag_source = std::move(drag.from);
+  const DragCoefficient& drag = inputs.drag;
+  r.drag_coefficient = drag.value, r.drag_source = drag.from;
   r.drag_uncertainty = drag.uncertainty;
   r.design_drag_coefficient = request.opening_coefficient
                                   ? drag.value  // its C_x belongs to it
@@ -93,10 +93,9 @@ void choose_coefficients(const Settings& resolved, const LoadRequest& request, L
   r.filling_exponent = request.filling_exponent.value_or(filling.exponent);
   r.ludtke_exponent = request.filling_exponent.value_or(filling.ludtke_exponent);
   r.filling_source = request.filling_constant && request.filling_exponent ? "given" : filling.source;
-  if (!request.filling_from.empty()) {
-    const ComputedFilling computed = computed_filling(request.filling_from, resolved);
-    if (!request.filling_constant) r.filling_constant = computed.constant;
-    if (!request.filling_exponent) r.filling_exponent = r.ludtke_exponent = computed.exponent;
+  if (const auto& computed = inputs.filling) {
+    if (!request.filling_constant) r.filling_constant = computed->constant;
+    if (!request.filling_exponent) r.filling_exponent = r.ludtke_exponent = computed->exponent;
     r.filling_source = "of the computed opening " + request.filling_from.string();
   }
   require_positive("filling constant n", r.filling_constant);
@@ -266,8 +265,7 @@ void fly_stages(const LoadRequest& request, LoadResult& r) {
   r.steady_reached = std::abs(state.speed / terminal - 1) < 2e-3;
 }
 
-void fly_record(const Settings& resolved, const LoadRequest& request, LoadResult& r) {
-  const OpeningRecord record = opening_record(request.opening, resolved);
+void fly_record(const OpeningRecord& record, const LoadRequest& request, LoadResult& r) {
   const double mass = r.payload_mass + r.parachute_mass;
   FlightState state{0, 0, 0, r.height, request.speed, request.path_angle};
   Leg leg;
@@ -392,7 +390,21 @@ LoadUncertainty load_uncertainty(const DragCoefficient& drag) {
                       100 * drag.uncertainty, drag.from, 100 * opening_scatter)};
 }
 
+LoadInputs load_inputs(const Settings& resolved, const LoadRequest& request) {
+  LoadInputs inputs{opening_drag_coefficient(resolved, request), {}, {}, {}};
+  if (!request.filling_from.empty()) inputs.filling = computed_filling(request.filling_from, resolved);
+  inputs.warnings = warnings_of_used({request.steady, request.opening, request.filling_from});
+  if (!request.opening.empty()) inputs.opening = opening_record(request.opening, resolved);
+  return inputs;
+}
+
 LoadResult run_load(const Settings& resolved, const LoadRequest& request) {
+  require_one_canopy(resolved, "an opening load");
+  check_request(request);
+  return run_load(resolved, request, load_inputs(resolved, request));
+}
+
+LoadResult run_load(const Settings& resolved, const LoadRequest& request, const LoadInputs& inputs) {
   require_one_canopy(resolved, "an opening load");
   check_request(request);
   LoadResult r;
@@ -402,8 +414,8 @@ LoadResult run_load(const Settings& resolved, const LoadRequest& request) {
   OpeningAir air = opening_air(resolved, request.height, request.ground);
   r.height = air.height, r.density = air.density, r.air_source = std::move(air.from);
   r.speed = request.speed, r.path_angle = request.path_angle;
-  choose_coefficients(resolved, request, r);
-  r.warnings = warnings_of_used({request.steady, request.opening, request.filling_from});
+  choose_coefficients(resolved, request, inputs, r);
+  r.warnings = inputs.warnings;
   for (std::string& text : strain_warnings(resolved, 0)) r.warnings.push_back(std::move(text));
   for (std::string& text : hardware_warnings(resolved)) r.warnings.push_back(std::move(text));
   const double mass = r.payload_mass + r.parachute_mass, area = r.drag_coefficient * r.reference_area;
@@ -418,7 +430,7 @@ LoadResult run_load(const Settings& resolved, const LoadRequest& request) {
             rate, speed, request.path_angle));
   }
   fly_stages(request, r);
-  if (!request.opening.empty()) fly_record(resolved, request, r);
+  if (inputs.opening) fly_record(*inputs.opening, request, r);
   choose_design_load(resolved, request, r);
   if (request.descent) r.snatch = snatch_of(resolved, request, r);
   take_required_load(resolved, r);

@@ -12,6 +12,7 @@
 #include "ripstop/flight/trajectory.h"
 #include "ripstop/run/margins.h"
 #include "ripstop/run/opening/method_load.h"
+#include "ripstop/run/opening/opening_record.h"
 #include "ripstop/run/opening/snatch.h"
 
 namespace ripstop::inline run {
@@ -190,9 +191,22 @@ LoadUncertainty load_uncertainty(const DragCoefficient& drag);
 /// canopy, so that the payload still accelerates; else 0 [m/s]. Arguments: [kg], [m2], [kg/m3], [deg].
 double slowest_opening(double mass, double drag_area, double density, double path_angle);
 
+/// Data of the runs in the folders of a request. They do not depend on its speed.
+struct LoadInputs {
+  DragCoefficient drag;
+  std::optional<ComputedFilling> filling;  // of LoadRequest::filling_from
+  std::optional<OpeningRecord> opening;    // of LoadRequest::opening
+  std::vector<std::string> warnings;       // of all of these runs
+};
+/// Reads the folders and verifies their checksums. Throws as opening_drag_coefficient(), computed_filling(),
+/// opening_record() and warnings_of_used().
+LoadInputs load_inputs(const Settings& resolved, const LoadRequest& request);
+
 /// Throws Error(usage) for quantities that are not above 0, a descent rate above the deployment speed, stages
-/// that do not grow, and inputs that finished_steady() and standard_air() refuse.
+/// that do not grow, and inputs that load_inputs() and standard_air() refuse.
 LoadResult run_load(const Settings& resolved, const LoadRequest& request);
+/// The same with inputs that have been read: for the loads at several speeds.
+LoadResult run_load(const Settings& resolved, const LoadRequest& request, const LoadInputs& inputs);
 
 /// result.json, trajectory.csv, force.png and speed.png.
 void write_load(const std::filesystem::path& folder, const LoadResult& result);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <string_view>
+#include <variant>
 
 #include "ripstop/core/error.h"
 #include "ripstop/material/library.h"

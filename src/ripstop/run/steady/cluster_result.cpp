@@ -18,12 +18,6 @@ constexpr double degree = std::numbers::pi / 180;
 constexpr double largest_force_angle = 2;    // [deg]
 constexpr double largest_difference = 0.05;  // between riser loads
 
-Vec3 skirt_centre(const CanopyMesh& mesh, const std::vector<Vec3>& x) {
-  Vec3 sum;
-  for (const int node : mesh.rigging.skirt_nodes) sum += x[static_cast<std::size_t>(node)];
-  return sum / double(mesh.rigging.skirt_nodes.size());
-}
-
 }  // namespace
 
 ClusterResult cluster_result(const SteadySolver& solver, const SteadyState& state,
@@ -47,7 +41,7 @@ ClusterResult cluster_result(const SteadySolver& solver, const SteadyState& stat
     for (const LineTension& t : line_tensions(one, cluster.part(k, tensions)))
       canopy.max_line_tension = std::max(canopy.max_line_tension, t.largest_tension);
     canopy.projected_diameter = canopy_size(one, shape).projected_diameter;
-    const double arm = norm(skirt_centre(one, shape) - shape[static_cast<std::size_t>(one.fixed.front())]);
+    const double arm = norm(skirt_centroid(one, shape) - shape[static_cast<std::size_t>(one.fixed.front())]);
     result.force_angle_deg += canopy.spreading_moment / (canopy.force * arm) / degree / cluster.canopies();
     least = std::min(least, canopy.force), most = std::max(most, canopy.force), sum += canopy.force;
   }
@@ -64,8 +58,7 @@ Margins margins_after_failure(const SteadySolver& solver, std::vector<double> te
   stress.warp *= more, stress.weft *= more;
   Margins margins = case_margins(resolved, solver.mesh(), tensions, stress);
   std::erase_if(margins.members, [&](const Margin& m) { return resolved.hardware().contains(m.member); });
-  const Margin* least = weakest(margins);
-  margins.weakest = least ? least->member : "";
+  take_weakest(margins);
   return margins;
 }
 

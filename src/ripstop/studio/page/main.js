@@ -136,19 +136,6 @@ const Studio = (() => {
 
   const redraw = () => { for (const view of [design, runs, fitting]) view.redraw(); };
 
-  function themes() {
-    const order = ["auto", "light", "dark"], button = byId("theme");
-    const set = (name) => {
-      if (name === "auto") delete document.documentElement.dataset.theme; else document.documentElement.dataset.theme = name;
-      button.textContent = `Theme: ${name}`;
-      button.dataset.now = name;
-      redraw();
-    };
-    button.addEventListener("click", () => set(order[(order.indexOf(button.dataset.now) + 1) % 3]));
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
-    set("auto");
-  }
-
   async function start() {
     drawings = await Server.get("/api/drawings");
     design = new Design(await Server.get("/api/schema"), drawings, notice, (text) => { byId("state").textContent = text; });
@@ -156,7 +143,7 @@ const Studio = (() => {
     fitting = new Fitting(notice);
     frame = element("div", { class: "view frame", id: "view-report" }, element("p", { class: "muted", style: "padding: 1rem" }, "Open a report from the list of runs."));
     tabs();
-    themes();
+    themeButton(redraw);
     creation();
     window.addEventListener("message", (event) => {
       if (event.data === "report ready" && event.source === frame.querySelector("iframe")?.contentWindow) frame.dataset.loaded = frame.dataset.names;
