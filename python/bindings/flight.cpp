@@ -11,7 +11,7 @@
 namespace ripstop::python {
 
 void add_flight(py::module_& module) {
-  add_class<DescentRow>(module, "DescentRow", "The descent at one height.");
+  add_class<DescentRow>(module, "DescentRow", "Rate of descent at one height, and time to the ground.");
   add_result<Descent>(module, "Descent", "Descent of a payload under the parachute of a steady run.");
   module.def(
       "descent",
@@ -23,10 +23,10 @@ void add_flight(py::module_& module) {
       },
       py::arg("run"), py::arg("payload_mass_kg"), py::kw_only(),
       py::arg("heights_m") = std::vector<double>{0, 300, 1000, 3000}, py::arg("ground_m") = 0.0,
-      "Computes speed [m/s] and time to the ground [s] of a payload [kg] at heights above sea level "
-      "[m]:\nripstop descent. run: a Steady or its run folder, or the run folder of a flight, whose "
-      "coefficient "
-      "in descent\nis used.");
+      "Computes rate of descent [m/s] and time to the ground [s] of a payload: ripstop descent.\n\nrun: a "
+      "Steady or its run folder, or the run folder of a flight, whose coefficient in descent is used.\n"
+      "payload_mass_kg: mass of the payload, without the parachute.\nheights_m: heights above sea level, "
+      "one row each.\nground_m: height of the ground above sea level.");
   add_result<ExportedParachute>(module, "ExportedParachute",
                                 "Parachute of a steady run in the terms of flight simulators.")
       .def("rocketpy", py::overload_cast<const ExportedParachute&, const std::string&>(&rocketpy_text),
@@ -44,12 +44,11 @@ void add_flight(py::module_& module) {
       },
       py::arg("run"), py::kw_only(), py::arg("deployment_speed_m_s") = py::none(),
       py::arg("flight") = py::none(),
-      "Exports the parachute of a steady run to flight simulators: ripstop export. run: a Steady or its "
-      "run\nfolder. deployment_speed_m_s: speed for the filling time [m/s]; None: speed of the run, or with "
-      "a "
-      "payload 20 m/s or three times\nthe rate of descent.\nflight: "
-      "run folder of a flight "
-      "of this parachute, whose coefficient in descent replaces the axial one.");
+      "Exports the parachute of a steady run to flight simulators: ripstop export.\n\nrun: a Steady or its "
+      "run "
+      "folder.\ndeployment_speed_m_s: speed for the filling time. None: speed of the run, or with a payload "
+      "three times the\n  rate of descent, but at least 20 m/s.\nflight: run folder of a flight of this "
+      "parachute, whose coefficient in descent replaces the axial\n  one.");
 }
 
 }  // namespace ripstop::python

@@ -43,7 +43,7 @@ void add_piece(py::module_& module) {
         for (const Edge edge : p.edges) hems.append(edge == Edge::hem);
         return hems;
       },
-      "Whether the edge from each corner to the next is a free edge; otherwise it is a seam.");
+      "Whether the edge from each corner to the next is a hem; otherwise it is a seam.");
   type.def("__repr__", [](const Piece& p) {
     return "<ripstop.Piece '" + p.name + "', " + std::to_string(p.count) + " of them>";
   });
@@ -53,7 +53,7 @@ void add_piece(py::module_& module) {
 
 void add_pattern(py::module_& module) {
   add_class<BillRow>(module, "BillRow",
-                     "A row of the bill of materials; finished and cut in [m2] of cloth, else [m].");
+                     "A row of the bill of materials; sizes are in [m2] for cloth, else in [m].");
   add_class<CutLength>(module, "CutLength", "Pieces of tape or line, finished.");
   add_piece(module);
   py::class_<PatternResult> type =
@@ -93,9 +93,9 @@ void add_pattern(py::module_& module) {
       py::arg("packing_density_kg_m3") = packed_by_hand, py::arg("out") = py::none(), py::arg("units") = "mm",
       py::arg("paper") = "",
       "Makes the cutting pattern and the bill of materials: ripstop pattern. Lengths are in [m], areas in "
-      "[m2],\nmasses in [kg].\n\nout: folder for the drawings and the bill. None: no files.\nunits: of the "
-      "DXF "
-      "files, \"mm\" or \"in\".\npaper: also as PDF on sheets, \"a4\" or \"letter\".");
+      "[m2],\nmasses in [kg].\n\nout: folder for the drawings and the bill. None: no files.\nunits: unit "
+      "of the DXF files, \"mm\" or \"in\".\npaper: also write PDF files on sheets of this paper, \"a4\" or "
+      "\"letter\"; empty: no PDF.");
 }
 
 }  // namespace ripstop::python
