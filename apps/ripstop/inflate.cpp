@@ -129,7 +129,7 @@ void print_peaks(const InflationResult& r) {
     row("peak measured", fmt::format("{:.1f} N ({:+.1f} %{})", *s.measured_peak_n,
                                      100 * (own / *s.measured_peak_n - 1), r.low_pass ? ", low-passed" : ""));
   }
-  if (s.printed_peak_n) row("peak, model of the source", fmt::format("{:.1f} N", *s.printed_peak_n));
+  if (s.printed_peak_n) row("peak, published model", fmt::format("{:.1f} N", *s.printed_peak_n));
   if (r.density && r.height && r.air_source)
     row("air",
         fmt::format("{:.4g} kg/m3, {:.4g} m above sea level ({})", *r.density, *r.height, *r.air_source));

@@ -128,9 +128,9 @@ void print_result(const LoadResult& r, const fs::path& folder) {
   print_text("  at line stretch: {:.4g} m/s, path {:.3g} deg below the horizon, {}\n", r.speed, r.path_angle,
              air_text(r.height, r.density, r.air_source));
   print_text(
-      "  C_D {:.3f}: {}\n  C_x {:.2f}: {}\n  filling distance {:.3g} D0, exponent of the drag area over time "
-      "{:g} "
-      "(Ludtke: {:g}): {}\n",
+      "  C_D {:.3f}: {}\n  "
+      "C_x {:.2f}: {}\n  "
+      "filling distance {:.3g} D0, exponent of the drag area over time {:g} (Ludtke: {:g}): {}\n",
       r.drag_coefficient, r.drag_source, r.opening_coefficient, r.opening_source, r.filling_constant,
       r.filling_exponent, r.ludtke_exponent, r.filling_source);
   print_text("  DESIGN LOAD {:.1f} N: {}; largest line load {:.2f} times the mean\n", r.design_load,
@@ -192,14 +192,15 @@ int load(LoadArguments& options) {
 void add_coefficients(CLI::App& command, LoadRequest& r) {
   add_number(command, "--drag-coefficient", r.drag_coefficient, key_range("inflation.drag_coefficient"),
              "Drag coefficient on S0")
-      ->default_str("of the --steady run, else inflation.drag_coefficient of the case, else Knacke's");
+      ->default_str(
+          "of the --steady run, else inflation.drag_coefficient of the case, else Knacke's for the family");
   add_number(command, "--opening-coefficient", r.opening_coefficient, above(0).up_to(10),
              "Opening force coefficient C_x")
       ->default_str("of the canopy family");
-  add_number(command, "--filling-constant", r.filling_constant, above(0).up_to(1000),
-             "Filling distance n in t_f = n D0 / v; that of a family is multiplied by 4.0 v^0.15 / 8 below "
-             "46 m/s (v in "
-             "ft/s)")
+  add_number(
+      command, "--filling-constant", r.filling_constant, above(0).up_to(1000),
+      "Filling distance n in t_f = n D0 / v; below 46 m/s the default is multiplied by 4.0 v^0.15 / 8 (v in "
+      "ft/s)")
       ->default_str("of the canopy family");
   add_number(command, "--filling-exponent", r.filling_exponent, above(0).up_to(20),
              "Exponent of the drag area over time")

@@ -63,8 +63,8 @@ void print_stage(const RecoveryStage& s, bool wind) {
     print_row("snatch load", fmt::format("{} N by [deployment] of its case, at the highest airspeed",
                                          rounded(*s.snatch_load)));
   if (s.separation_load)
-    print_row("separation load", fmt::format("{} N on the shock cord: energy of two sections that part",
-                                             rounded(*s.separation_load)));
+    print_row("separation load",
+              fmt::format("{} N on the shock cord when two sections separate", rounded(*s.separation_load)));
   print_row("margins and hardware",
             fmt::format("under {} N, the upper end of the design load{}", rounded(s.largest_design_load),
                         s.separation_load == s.hardware.rated ? "; of hardware under the separation load"
@@ -186,9 +186,10 @@ void add_recovery(CLI::App& app, int& status) {
       ->needs(drogue);
   add_numbers(*command, "--section", r.sections, above(0).up_to(1e6),
               "Masses of sections of the rocket, for the kinetic energy of each at landing [kg]");
-  add_number(*command, "--separation-speed", r.separation_speed, above(0).up_to(1000),
-             "Speed at which two sections part, for the load on the shock cord in [hardware]; with --section "
-             "in order along the rocket [m/s]");
+  add_number(
+      *command, "--separation-speed", r.separation_speed, above(0).up_to(1000),
+      "Relative speed at which two sections separate, for the load on the shock cord in [hardware]; needs "
+      "--section, with the sections in order along the rocket [m/s]");
   add_number(*command, "--bay-diameter", r.bay_diameter, above(0).up_to(10),
              "Inner diameter of the parachute bay, for the length that the packed parachute needs [m]");
   add_number(*command, "--packing-density", r.packing_density, packing_density_range,

@@ -45,10 +45,11 @@ void add_flight(py::module_& module) {
       py::arg("run"), py::kw_only(), py::arg("deployment_speed_m_s") = py::none(),
       py::arg("flight") = py::none(),
       "Exports the parachute of a steady run to flight simulators: ripstop export.\n\nrun: a Steady or its "
-      "run "
-      "folder.\ndeployment_speed_m_s: speed for the filling time. None: speed of the run, or with a payload "
-      "three times the\n  rate of descent, but at least 20 m/s.\nflight: run folder of a flight of this "
-      "parachute, whose coefficient in descent replaces the axial\n  one.");
+      "run folder.\ndeployment_speed_m_s: speed for the filling time. None: speed of the run, or with a "
+      "payload three times the\n  "
+      "rate of descent, but at least 20 m/s.\nflight: run folder of a flight of this parachute, whose "
+      "coefficient in descent replaces the axial\n  "
+      "one.");
 }
 
 }  // namespace ripstop::python

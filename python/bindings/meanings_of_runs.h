@@ -314,8 +314,8 @@ HeldPayload.weight_n: weight of payload and parachute
 HeldPayload.payload_drag_n: drag of the payload
 HeldPayload.drag_over_weight: drag of canopy and payload over the weight
 Measured.drag_n: measured drag; None: not given
-Measured.printed_nonlinear_n: drag of the nonlinear model of the source
-Measured.printed_linear_n: drag of the linear model of the source
+Measured.printed_nonlinear_n: drag by the nonlinear model of the source of the measurement
+Measured.printed_linear_n: drag by the linear model of this source
 SolvedDomain.part: "full" or "quarter"
 SolvedDomain.reason: reason for the full domain; empty for a quarter
 SolvedDomain.canopy_asymmetry_m: largest deviation of the shape from mirror symmetry

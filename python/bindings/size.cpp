@@ -125,13 +125,10 @@ void add_size(py::module_& module) {
       py::arg("verify") = false, py::arg("progress") = py::none(), py::arg("coefficient") = "safe",
       py::arg("fly") = false,
       "Designs a parachute for a payload [kg] and a descent rate [m/s]: ripstop size.\n\nfamily: one of "
-      "families().\nheight_m: height above sea level at which the rate is "
-      "required.\ndensity_kg_m3: density of the air, instead of the height.\nverify: adjust the diameter "
-      "with steady runs until the rate is met; with fly, with free "
-      "flights.\n"
-      "coefficient: \"axial\" (steady flow), \"descent\" (flown) or \"safe\", the smaller one.\nprogress: as "
-      "in "
-      "steady().");
+      "families().\nheight_m: height above sea level at which the rate is required.\ndensity_kg_m3: density "
+      "of the air, instead of the height.\nverify: adjust the diameter with steady runs until the rate is "
+      "met; with fly, with free flights.\ncoefficient: \"axial\" (steady flow), \"descent\" (flown) or "
+      "\"safe\", the smaller one.\nprogress: as in steady().");
   module.def("families", &family_drags,
              "Returns all canopy families with the computed drag coefficients of their examples.");
   module.def(

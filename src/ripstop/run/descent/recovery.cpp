@@ -79,7 +79,7 @@ void check_recovery(const RecoveryRequest& q, bool two_stages) {
   if (!(q.delay >= 0))
     throw Error(ExitCode::usage, fmt::format("a delay of {:g} s: must be 0 or above", q.delay));
   if (q.separation_speed) {
-    require_positive("speed at which sections part (m/s)", *q.separation_speed);
+    require_positive("speed at which sections separate (m/s)", *q.separation_speed);
     if (q.sections.size() < 2)
       throw Error(ExitCode::usage, "a separation needs the masses of the sections: give --section KG,KG");
   }

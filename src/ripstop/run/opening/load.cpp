@@ -125,11 +125,12 @@ std::string outside_of_methods(const OpeningConditions& c, const LoadRequest& re
 std::string caution_on_filling(const LoadRequest& request, double nominal_diameter) {
   if (!of_handbook(request)) return "";
   const std::string text = joined(outside_range(filling_model, {{"nominal diameter", nominal_diameter}}));
-  return text.empty() ? ""
-                      : text +
-                            "; a small canopy fills within 1 to 20 D0, depending on its deployment (set it "
-                            "with --filling-constant), and one that is thrown open approaches the "
-                            "infinite-mass load";
+  return text.empty()
+             ? ""
+             : text +
+                   "; a small canopy fills within 1 to 20 D0, depending on its deployment (set it "
+                   "with --filling-constant); the load of a canopy that opens almost at once approaches the "
+                   "infinite-mass load";
 }
 
 /// `r`: coefficients that are known already.

@@ -100,7 +100,7 @@ void add_drag_over_speed(std::vector<ReportPlot>& plots, const std::vector<Repor
   made.series.push_back(computed);
   for (ReportSeries& series :
        std::vector{known_drag(resolved, "measured", &Measured::drag_n),
-                   known_drag(resolved, "nonlinear model of the source", &Measured::printed_nonlinear_n)})
+                   known_drag(resolved, "published nonlinear model", &Measured::printed_nonlinear_n)})
     if (!series.x.empty()) made.series.push_back(series);
   plots.push_back(made);
 }
@@ -160,7 +160,7 @@ std::vector<ReportPlot> opening_plots(const ReportRun& run, const CsvTable& hist
     for (const auto& [key, name] : {std::pair{"steady_load_n", "steady"},
                                     {"knacke_load_n", "infinite mass, C_x C_D S0 q"},
                                     {"measured_peak_n", "measured peak"},
-                                    {"printed_peak_n", "peak, model of the source"}}) {
+                                    {"printed_peak_n", "peak, published model"}}) {
       const double level = number_of(run, key);
       if (std::isfinite(level)) plots[0].series.push_back({name, {0, end}, {level, level}, true, true});
     }
