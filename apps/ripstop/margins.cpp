@@ -68,8 +68,8 @@ void print_replaced_mass(const std::optional<double>& given, const Settings& res
 void print_separation() {
   print_text(
       "Not included: the load when sections of the rocket separate. A shock cord with the stiffness k "
-      "(stiffness_n) and the length L (length_m) carries F = sqrt(2 E k / L), where E = m1 m2 v^2 / (2 (m1 + "
-      "m2)) for sections of masses m1 and m2 that separate at the speed v. If F exceeds the rated load of "
+      "(stiffness_n) and the length L (length_m) carries F = sqrt(2 E k / L). For sections of masses "
+      "m1 and m2 that separate at the speed v, E = m1 m2 v^2 / (2 (m1 + m2)). If F exceeds the rated load of "
       "required hardware, design the hardware for F.\n");
 }
 

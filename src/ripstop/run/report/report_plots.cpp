@@ -49,10 +49,11 @@ std::vector<ReportPlot> steady_plots(const fs::path& folder) {
            {{"drag_n", "drag"}, {"force_x_n", "side force along x"}, {"force_y_n", "side force along y"}});
   const CsvTable pressure = table_in(folder / "pressure.csv");
   add_plot(plots, pressure, "arc_m",
-           plot("pressure", "Pressure along a gore", {"along the cloth from the vent", "m"},
+           plot("pressure", "Pressure along a gore", {"distance along the cloth from the vent", "m"},
                 {"pressure coefficient", ""}),
            {{"cp_inside", "inside"}, {"cp_outside", "outside"}, {"cp_load", "cloth load"}});
-  add_plot(plots, pressure, "z_m", plot("profile", "Profile", {"along the stream", "m"}, {"radius", "m"}),
+  add_plot(plots, pressure, "z_m",
+           plot("profile", "Profile", {"distance along the stream", "m"}, {"radius", "m"}),
            {{"radius_m", "mean over the gores"}});
   return plots;
 }
