@@ -83,11 +83,13 @@ void print_start(const Opening& solver, const InflationState& state, const LoadS
         "to keep the time step\n",
         100 * limit.reduced_cells, limit.least_share);
   print_text(
-      "nodes {}, time step {:.3e} s (stability limit {:.3e} s), {} thread{}; {} about {} on one thread\n",
+      "nodes {}, time step {:.3e} s (stability limit {:.3e} s), {} thread{}; the time steps {} about {} on "
+      "one "
+      "thread, without the writing of {} shapes\n",
       solver.mesh().node_count(), state.step, state.step / solver.problem().settings.step_fraction,
       solver.threads(), solver.threads() == 1 ? "" : "s",
-      solver.air() ? "cloth and air take" : "the cloth alone takes",
-      duration_text(opening_seconds(solver, state)));
+      solver.air() ? "of cloth and air take" : "of the cloth take",
+      rough_duration(opening_seconds(solver, state)), solver.problem().settings.frames);
 }
 
 /// Of a reefed opening, a line a stage.

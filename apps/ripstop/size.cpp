@@ -74,8 +74,8 @@ void print_result(const SizeResult& r, const fs::path& file, const fs::path& pag
     row("largest load", fmt::format("{:.0f} N with the uncertainty of {:.0f} % ({}): margin of safety {}, {}",
                                     r.largest_load, 100 * r.load_uncertainty, r.load_uncertainty_from,
                                     margin_text(*r.smallest_margin), r.smallest_margin_member));
-  row("applicable methods",
-      fmt::format("opening load {:.0f} to {:.0f} N (ripstop load)", r.opening_load_low, r.opening_load));
+  row("opening load", fmt::format("{:.0f} to {:.0f} N by the applicable methods (see ripstop load)",
+                                  r.opening_load_low, r.opening_load));
   if (!r.opening.front().caution.empty()) row("", r.opening.front().caution);
   print_margins(r.margins, r.largest_load / r.design_load);
   for (const SizeCheck& c : r.checks)

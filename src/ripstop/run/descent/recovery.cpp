@@ -215,10 +215,9 @@ LoadUncertainty uncertainty_at(DragEnd end, const RecoveryCanopy& canopy) {
                        design_drag_coefficient(design, canopy.drag.value);
   DragCoefficient drag = canopy.drag;
   if (std::abs(ratio - 1) > drag.uncertainty + 1e-9) {
-    drag.from = fmt::format(
-        "range of C_D in descent; ripstop load --fastest takes {:.0f} %, of the coefficient without that "
-        "range",
-        100 * drag.uncertainty);
+    drag.from =
+        fmt::format("range of C_D in descent; ripstop load --fastest uses {:.0f} %, without that range",
+                    100 * drag.uncertainty);
     drag.uncertainty = std::abs(ratio - 1);
   }
   return load_uncertainty(drag);

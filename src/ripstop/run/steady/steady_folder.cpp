@@ -332,7 +332,7 @@ void require_same_parachute(const Settings& resolved, const std::string& where, 
         ExitCode::usage,
         fmt::format(
             "{}: is a run of a different parachute: parachute.{} is {} in that run and {} in this case",
-            where, key, had.value(key, nlohmann::json()).dump(), value.dump()));
+            where, key, had.contains(key) ? had.at(key).dump() : "absent", value.dump()));
   }
 }
 
