@@ -228,8 +228,6 @@ Inflation.deployment: deployment before the opening; None: without one
 Inflation.speed_at_end_m_s: speed of the payload at the end; None: fixed end
 Inflation.path_angle_at_end_deg: angle of the path of the payload below the horizon at the end
 Inflation.steady_drag_returned: steady load over the given steady drag
-Inflation.line_damping_s: relative damping of lines and tape as a time
-Inflation.cloth_damping_s: relative damping of the cloth as a time
 Inflation.damping_n_s_m3: absolute damping C_a
 Inflation.quadratic_damping_n_s2_m4: quadratic absolute damping
 Inflation.inner_fold_radius_m: radius of the inner folds of the skirt at the start
