@@ -92,8 +92,7 @@ void add_compare_flight(CLI::App& app, int& status) {
       "Determine drag areas over height, deployments and opening loads from the logs of a flight");
   command->footer(
       "A drag area is determined where the speed of descent is steady; +- is one standard deviation, from "
-      "the\n"
-      "uncertainties of height and mass.\n"
+      "the\nuncertainties of height and mass.\n"
       "Example: ripstop compare-flight examples/flight-log/flight.csv --case examples/flight-log/main.toml "
       "--ground 200");
   command

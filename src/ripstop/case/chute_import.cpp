@@ -330,10 +330,10 @@ class Importer {
     for (const auto& [name, value] : file_.inputs)
       mapped("input {} = {:.9g}: included in the dimensions", name, value);
     if (!file_.parameters.empty())
-      mapped("{} parameters: evaluated and included in the dimensions; the formulas are not kept",
+      mapped("parameters ({}): evaluated and included in the dimensions; the formulas are not kept",
              file_.parameters.size());
     if (!file_.instructions.empty())
-      mapped("{} instructions: comments at the top of the case", file_.instructions.size());
+      mapped("instructions ({}): comments at the top of the case", file_.instructions.size());
     if (result_.type == "cross") {
       changed("2 gores: written as gores = 4, the arms of a cross");
     } else {
