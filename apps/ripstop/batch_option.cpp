@@ -61,7 +61,7 @@ BatchJob batch_job(const BatchOptions& options, const fs::path& folder, BatchNee
   job.folder = folder;
   if (options.hours) {
     needs.hours = *options.hours;
-    needs.limited = "the time as asked for";
+    needs.limited = "time limit: --hours";
   }
   job.needs = std::move(needs);
   return job;

@@ -86,9 +86,9 @@ void print(const Settings& resolved, const CaseSummary& s, std::size_t warnings)
                           rough_duration(s.core_time)));
   if (resolved.flow().unsteady)
     row("",
-        "with flow.unsteady the average in time follows, of a length that is not known in advance: "
-        "several times as long");
-  row("", "of an opening: ripstop inflate --check; of a flight the terminal shows the remaining time");
+        "flow.unsteady adds an averaging window, whose time is not known in advance: usually several "
+        "times this estimate");
+  row("", "time of an opening: ripstop inflate --check; time of a flight: shown while it runs");
   for (std::size_t i = 0; i < resolved.inflation().reefing.size(); ++i) {
     const ReefingStage& stage = resolved.inflation().reefing[i];
     row(i == 0 ? "reefing" : "",

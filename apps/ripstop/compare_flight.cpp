@@ -91,8 +91,8 @@ void add_compare_flight(CLI::App& app, int& status) {
       "compare-flight",
       "Determine drag areas over height, deployments and opening loads from the logs of a flight");
   command->footer(
-      "A drag area needs a part of the descent at steady speed; +- is one standard deviation, of height and "
-      "mass.\n"
+      "A drag area is determined where the speed of descent is steady; +- is one standard deviation, from "
+      "the\nuncertainties of height and mass.\n"
       "Example: ripstop compare-flight examples/flight-log/flight.csv --case examples/flight-log/main.toml "
       "--ground 200");
   command
@@ -109,8 +109,8 @@ void add_compare_flight(CLI::App& app, int& status) {
              "Height of the ground above sea level [m]");
   add_number(*command, "--height-zero", options->request.height_zero,
              from(-highest_height).up_to(highest_height),
-             "Height above ground where the log reads 0 [m]; the negative height of the ground for a "
-             "log above sea level");
+             "Height above ground at which the log reads 0 [m]; for heights above sea level, minus the "
+             "height of the ground");
   add_number(*command, "--body-drag-area", options->request.body_drag_area, from(0).up_to(100),
              "Drag area of everything but the canopies [m2]");
   command->add_option("--run", options->request.runs,

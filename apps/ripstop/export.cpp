@@ -93,10 +93,9 @@ void add_export(CLI::App& app, int& status) {
       "events) or json")
       ->required();
   command->add_option("run", options->run, "Folder of a finished run of ripstop steady")->required();
-  add_run_folder(
-      *command, "--flight", options->flight,
-      "Folder of a finished run of ripstop fly of this parachute: its coefficient in descent, in place "
-      "of the axial one");
+  add_run_folder(*command, "--flight", options->flight,
+                 "Folder of a finished run of ripstop fly of this parachute; its coefficient in descent "
+                 "replaces the axial one");
   command->add_option("--trigger", options->trigger,
                       "Deployment trigger: apogee, or a height above the ground [m]");
   add_number(*command, "--deployment-speed", options->deployment_speed, above(0).up_to(1000),

@@ -99,16 +99,18 @@ void add_import(CLI::App& app, int& status) {
       ->default_str("name of the design with .toml");
   command->add_flag("--force", options->force, "Replace an existing case file");
   add_number(*command, "--lines", options->line_count, key_range("parachute.lines.count"), "Number of lines")
-      ->default_str(fmt::format("that of the file, else one per gore, {} for a cross and {} for OpenRocket",
+      ->default_str(fmt::format("that of the file; else one per gore, for a cross {}, for OpenRocket {}",
                                 cross_line_count, openrocket_line_count));
   add_number(*command, "--line-length", options->line_length, key_range("parachute.lines.length_m"),
              "Length of a line [m]")
-      ->default_str(fmt::format("that of the file, or the nominal diameter, {:g} of it for OpenRocket",
-                                openrocket_line_share));
+      ->default_str(
+          fmt::format("that of the file; else the nominal diameter, for OpenRocket {:g} times this diameter",
+                      openrocket_line_share));
   add_number(*command, "--vent-diameter", options->vent_diameter, from(1e-4).up_to(100),
              "Diameter of the vent [m]")
-      ->default_str(fmt::format("that of the file; else {:g} % of the widest diameter, {:g} % for OpenRocket",
-                                100 * chute_vent_share, 100 * openrocket_vent_share));
+      ->default_str(
+          fmt::format("that of the file; else {:g} % of the largest diameter, for OpenRocket {:g} %",
+                      100 * chute_vent_share, 100 * openrocket_vent_share));
   command->add_option("--device", options->device, "OpenRocket: number or name of the parachute")
       ->default_str("the only one");
   add_choice(*command, "--diameter-is", options->diameter_is, {"constructed", "projected"},
@@ -116,7 +118,7 @@ void add_import(CLI::App& app, int& status) {
              "canopy, with C_D on its area)");
   add_number(*command, "--mass", options->payload_mass, key_range("payload.mass_kg"),
              "OpenRocket: mass of the payload, without the parachutes [kg]")
-      ->default_str("that of a stored simulation, without its parachutes");
+      ->default_str("that of a simulation stored in the file");
   command->callback([options, &status] { status = run(*options); });
 }
 

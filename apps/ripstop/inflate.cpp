@@ -81,11 +81,12 @@ void print_start(const Opening& solver, const InflationState& state, const LoadS
         "to keep the time step\n",
         100 * limit.reduced_cells, limit.least_share);
   print_text(
-      "nodes {}, time step {:.3e} s (stability limit {:.3e} s), {} thread{}; {} about {} on one thread\n",
+      "nodes {}, time step {:.3e} s (stability limit {:.3e} s), {} thread{}; the time steps {} about {} on "
+      "one thread, without the writing of {} shapes\n",
       solver.mesh().node_count(), state.step, state.step / solver.problem().settings.step_fraction,
       solver.threads(), solver.threads() == 1 ? "" : "s",
-      solver.air() ? "cloth and air take" : "the cloth alone takes",
-      duration_text(opening_seconds(solver, state)));
+      solver.air() ? "of cloth and air take" : "of the cloth take",
+      rough_duration(opening_seconds(solver, state)), solver.problem().settings.frames);
 }
 
 /// Of a reefed opening, a line a stage.
@@ -127,7 +128,7 @@ void print_peaks(const InflationResult& r) {
     row("peak measured", fmt::format("{:.1f} N ({:+.1f} %{})", *s.measured_peak_n,
                                      100 * (own / *s.measured_peak_n - 1), r.low_pass ? ", low-passed" : ""));
   }
-  if (s.printed_peak_n) row("peak, model of the source", fmt::format("{:.1f} N", *s.printed_peak_n));
+  if (s.printed_peak_n) row("peak, published model", fmt::format("{:.1f} N", *s.printed_peak_n));
   if (r.density && r.height && r.air_source)
     row("air",
         fmt::format("{:.4g} kg/m3, {:.4g} m above sea level ({})", *r.density, *r.height, *r.air_source));

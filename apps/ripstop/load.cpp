@@ -47,7 +47,8 @@ std::string air_text(double height, double density, const std::string& from) {
 /// The caution is printed where it differs from that of the stage before.
 void print_stage(const StageLoads& s, const LoadResult& r, const std::string& known_caution) {
   print_text(
-      "\nat {:.2f} s: {:.3g} m/s on a path {:.3g} deg below the horizon, {:.4g} m above sea level, {:.4g} "
+      "\nstage from {:.2f} s: {:.3g} m/s on a path {:.3g} deg below the horizon, {:.4g} m above sea level, "
+      "{:.4g} "
       "kg/m3, drag area {:.3g} to {:.3g} m2\n"
       "  filling time {:.3g} s ({:.3g} D0 at this speed), ballistic parameter {:.3g}, mass ratio {:.3g}\n",
       s.begin, s.speed, s.path_angle, s.height, s.density, s.drag_area_before, s.drag_area, s.filling_time,
@@ -135,8 +136,8 @@ void print_result(const LoadResult& r, const fs::path& folder) {
   print_text("  DESIGN LOAD {:.1f} N: {}; largest line load {:.2f} times the mean\n", r.design_load,
              r.design_load_from, r.line_load_factor);
   print_text(
-      "  Lines, tape, riser and hardware are designed for this load{}. An estimate is the expected load if "
-      "the canopy fills as its method assumes.\n",
+      "  Lines, tape, riser and hardware are designed for this load{}. The load of an \"estimate\" is "
+      "expected if the canopy fills as that method assumes.\n",
       r.design_method == infinite_mass_method
           ? ", which does not depend on the filling: methods with a smaller load assume a filling distance"
           : "");
@@ -191,13 +192,15 @@ int load(LoadArguments& options) {
 void add_coefficients(CLI::App& command, LoadRequest& r) {
   add_number(command, "--drag-coefficient", r.drag_coefficient, key_range("inflation.drag_coefficient"),
              "Drag coefficient on S0")
-      ->default_str("of the --steady run, else inflation.drag_coefficient of the case, else Knacke's");
+      ->default_str(
+          "of the --steady run, else inflation.drag_coefficient of the case, else Knacke's for the family");
   add_number(command, "--opening-coefficient", r.opening_coefficient, above(0).up_to(10),
              "Opening force coefficient C_x")
       ->default_str("of the canopy family");
-  add_number(command, "--filling-constant", r.filling_constant, above(0).up_to(1000),
-             "Filling distance n in t_f = n D0 / v; that of a family is multiplied by 4.0 v^0.15 / 8 below "
-             "46 m/s (v in ft/s)")
+  add_number(
+      command, "--filling-constant", r.filling_constant, above(0).up_to(1000),
+      "Filling distance n in t_f = n D0 / v; below 46 m/s the default is multiplied by 4.0 v^0.15 / 8 (v in "
+      "ft/s)")
       ->default_str("of the canopy family");
   add_number(command, "--filling-exponent", r.filling_exponent, above(0).up_to(20),
              "Exponent of the drag area over time")

@@ -67,9 +67,10 @@ void print_replaced_mass(const std::optional<double>& given, const Settings& res
 
 void print_separation() {
   print_text(
-      "Not included: the load when the sections of the rocket separate. A shock cord of the stiffness k "
-      "(stiffness_n) and the length L (length_m) carries F = sqrt(2 E k / L). Sections m1 and m2 that part "
-      "at v have E = m1 m2 v^2 / (2 (m1 + m2)). Use the larger of this load and of required hardware.\n");
+      "Not included: the load when sections of the rocket separate. A shock cord with the stiffness k "
+      "(stiffness_n) and the length L (length_m) carries F = sqrt(2 E k / L). For sections of masses "
+      "m1 and m2 that separate at the speed v, E = m1 m2 v^2 / (2 (m1 + m2)). If F exceeds the rated load of "
+      "required hardware, design the hardware for F.\n");
 }
 
 std::string packed_text(double mass, double volume) {

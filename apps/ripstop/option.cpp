@@ -148,7 +148,8 @@ CLI::Option* accept_words(CLI::Option* option, const std::vector<std::string>& w
   return option
       ->check(unnamed([words](std::string& given) {
         if (std::find(words.begin(), words.end(), given) != words.end()) return std::string();
-        return fmt::format("\"{}\" must be {}{}", given, fmt::join(words, " or "), suggestion(given, words));
+        return fmt::format("\"{}\" must be {}{}{}", given, words.size() > 2 ? "one of " : "",
+                           fmt::join(words, words.size() > 2 ? ", " : " or "), suggestion(given, words));
       }))
       ->option_text(fmt::format("{}", fmt::join(words, "|")));
 }

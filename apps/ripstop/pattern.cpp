@@ -56,7 +56,7 @@ void print_lengths(const PatternResult& r) {
     fmt::print("suspension lines: {:.3f} m of each are sewn to the canopy, {:.3f} m are free\n",
                r.line_on_canopy, r.line_length);
   for (const CutLength& hem : r.hems)
-    fmt::print("hem, {}: {:.3f} m in all, folded from {:g} mm of the pieces\n", hem.name, hem.length,
+    fmt::print("hem, {}: total length {:.3f} m, folded from an allowance of {:g} mm\n", hem.name, hem.length,
                1000 * extra.hem);
 }
 

@@ -230,9 +230,8 @@ void add_calibrate_porosity(CLI::App& parent, int& status) {
   CLI::App* command = parent.add_subcommand(
       "porosity", "Determine the porosity of the cloth from the measured drag of a reference parachute");
   command->footer(
-      "The file of --measured is a table with speed, density and drag, as in speed_m_s, density_kg_m3, "
-      "drag_n;\n"
-      "one row is enough.\n"
+      "The file of --measured is a table with the columns speed_m_s, density_kg_m3 and drag_n; one row is "
+      "enough.\n"
       "An interrupted calibration resumes when the command is repeated. For other parachutes of the same "
       "cloth use\nthe two --set options that it prints.\n"
       "Example: ripstop calibrate porosity examples/stratos-iv/case.toml --gammas 0.18,0.20,0.22,0.24 "
@@ -247,7 +246,7 @@ void add_calibrate_porosity(CLI::App& parent, int& status) {
               "Instead: values of the permeability [CFM/ft2 at half an inch of water], with b = 0")
       ->excludes(gammas);
   add_number(*command, "--thickness", options->thickness, above(0).up_to(0.1),
-             "Thickness of the cloth in Ergun's law, to whose default a and b of [NFM] correspond [m]");
+             "Thickness of the cloth in Ergun's law; its default reproduces a and b of [NFM] [m]");
   add_number(*command, "--shifts", options->shifts, from(1).up_to(100),
              "Number of grid alignments along the flow that are averaged");
   command->add_option("--out", options->settings.folder, "Folder")

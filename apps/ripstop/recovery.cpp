@@ -63,8 +63,8 @@ void print_stage(const RecoveryStage& s, bool wind) {
     print_row("snatch load", fmt::format("{} N by [deployment] of its case, at the highest airspeed",
                                          rounded(*s.snatch_load)));
   if (s.separation_load)
-    print_row("separation load", fmt::format("{} N on the shock cord: energy of two sections that part",
-                                             rounded(*s.separation_load)));
+    print_row("separation load",
+              fmt::format("{} N on the shock cord when two sections separate", rounded(*s.separation_load)));
   print_row("margins and hardware",
             fmt::format("under {} N, the upper end of the design load{}", rounded(s.largest_design_load),
                         s.separation_load == s.hardware.rated ? "; of hardware under the separation load"
@@ -73,7 +73,8 @@ void print_stage(const RecoveryStage& s, bool wind) {
                             : ""));
   print_margins(s.margins);
   print_row("required hardware", hardware_text(s.hardware));
-  print_row("fastest safe deployment", safe_speed_text(s.safe) + " with the same uncertainty");
+  print_row("fastest safe deployment",
+            safe_speed_text(s.safe) + "; range for the same uncertainty of the load");
   print_row("descent rate at the end", range_text(s.descent_rate, "m/s"));
   print_row("duration", range_text(s.duration, "s"));
   if (wind) print_row("drift", range_text(s.drift, "m"));
@@ -104,13 +105,14 @@ void print_result(const RecoveryResult& r, const fs::path& folder) {
   print_row("time since apogee", range_text(r.time, "s"));
   print_row("wind", wind_text(r));
   if (r.wind.speed_m_s > 0) print_row("drift with the wind", range_text(r.drift, "m"));
-  print_row("path in still air", fmt::format("{} m along the flight direction at apogee", rounded(r.range)));
+  print_row("path in still air",
+            fmt::format("{} m horizontally, in the direction of flight at apogee", rounded(r.range)));
   if (std::none_of(r.stages.begin(), r.stages.end(),
                    [](const RecoveryStage& s) { return s.separation_load.has_value(); }))
     print_separation();
   print_text(
-      "Ranges: with the smallest and the largest drag coefficients of all parachutes in descent; those of "
-      "loads also with the scatter of openings.\n"
+      "Ranges are computed with the smallest and the largest drag coefficients in descent; ranges of loads "
+      "include the scatter of openings.\n"
       "{} (report.html, height.png, speed.png, trajectory.csv, result.json)\n",
       folder.string());
 }
@@ -186,9 +188,10 @@ void add_recovery(CLI::App& app, int& status) {
       ->needs(drogue);
   add_numbers(*command, "--section", r.sections, above(0).up_to(1e6),
               "Masses of sections of the rocket, for the kinetic energy of each at landing [kg]");
-  add_number(*command, "--separation-speed", r.separation_speed, above(0).up_to(1000),
-             "Speed at which two sections part, for the load on the shock cord in [hardware]; with --section "
-             "in order along the rocket [m/s]");
+  add_number(
+      *command, "--separation-speed", r.separation_speed, above(0).up_to(1000),
+      "Relative speed at which two sections separate, for the load on the shock cord in [hardware]; needs "
+      "--section, with the sections in order along the rocket [m/s]");
   add_number(*command, "--bay-diameter", r.bay_diameter, above(0).up_to(10),
              "Inner diameter of the parachute bay, for the length that the packed parachute needs [m]");
   add_number(*command, "--packing-density", r.packing_density, packing_density_range,

@@ -28,7 +28,7 @@ void add_report(CLI::App& app, int& status) {
   CLI::App* command = app.add_subcommand(
       "report", "Write finished runs as one HTML file: 3D shape, flow, plots, tables, comparison of runs");
   command->footer(
-      "These commands write this file into their run folders.\n"
+      "The commands steady, inflate, fly and sweep also write this file into their run folders.\n"
       "Example: ripstop report runs/stratos-iv runs/walrus --out both.html");
   command->add_option("runs", options->runs, "Folders of finished runs of steady, inflate, fly or sweep")
       ->required();

@@ -74,8 +74,8 @@ void print_result(const SizeResult& r, const fs::path& file, const fs::path& pag
     row("largest load", fmt::format("{:.0f} N with the uncertainty of {:.0f} % ({}): margin of safety {}, {}",
                                     r.largest_load, 100 * r.load_uncertainty, r.load_uncertainty_from,
                                     margin_text(*r.smallest_margin), r.smallest_margin_member));
-  row("applicable methods",
-      fmt::format("opening load {:.0f} to {:.0f} N (ripstop load)", r.opening_load_low, r.opening_load));
+  row("opening load", fmt::format("{:.0f} to {:.0f} N by the applicable methods (see ripstop load)",
+                                  r.opening_load_low, r.opening_load));
   if (!r.opening.front().caution.empty()) row("", r.opening.front().caution);
   print_margins(r.margins, r.largest_load / r.design_load);
   for (const SizeCheck& c : r.checks)
@@ -201,29 +201,28 @@ void add_size(CLI::App& app, int& status) {
   add_number(*command, "--drag-coefficient", r.drag_coefficient, key_range("inflation.drag_coefficient"),
              "Drag coefficient on S0")
       ->default_str("value computed for the family");
-  add_choice<DragReference>(
-      *command, "--drag-coefficient-on", r.drag_coefficient_on,
-      {{"nominal", DragReference::nominal}, {"projected", DragReference::projected}},
-      "Area of --drag-coefficient: nominal (S0), or projected (the circle of the open canopy, as makers "
-      "state it)");
+  add_choice<DragReference>(*command, "--drag-coefficient-on", r.drag_coefficient_on,
+                            {{"nominal", DragReference::nominal}, {"projected", DragReference::projected}},
+                            "Reference area of --drag-coefficient: nominal (S0), or projected (circle of the "
+                            "open canopy, as stated by makers)");
   add_number(*command, "--deployment-speed", r.deployment_speed, above(0).up_to(1000),
              "Speed at deployment, for the opening load [m/s]")
-      ->default_str(fmt::format("{:g}, at least {:g} times the descent rate", least_deployment_speed,
-                                deployment_over_descent));
+      ->default_str(fmt::format("{:g}, or {:g} times the descent rate if that is higher",
+                                least_deployment_speed, deployment_over_descent));
   command->add_option("--line-material", r.line_material, "Line material of the library")
       ->default_str("the lightest with sufficient strength");
   add_number(*command, "--packing-density", r.packing_density, from(50).up_to(1500),
              "Density of the packed parachute, 250 (loose) to 400 by hand, 600 with a press [kg/m3]");
   command->add_flag("--verify", options->verify,
                     "Run the case and adjust the diameter until the descent rate is met within 1 %");
-  command->add_flag("--fly", options->fly,
-                    "With --verify: fly the parachute freely instead of steady runs on the axis");
+  command->add_flag("--fly", options->fly, "With --verify: free flights instead of steady runs on the axis");
   add_number(*command, "--duration", options->duration, key_range("flight.duration_s"),
              "Duration of each flight of --fly [s]");
   add_choice<DragBasis>(
       *command, "--coefficient", r.basis,
       {{"safe", DragBasis::safe}, {"axial", DragBasis::axial}, {"descent", DragBasis::descent}},
-      "Coefficient of the family: axial (steady flow), descent (flown), or safe (the smaller one)");
+      "Drag coefficient of the family: axial (steady flow), descent (free flight), or safe (the smaller "
+      "one)");
   command->add_option("--out", options->out, "Case file");
   command->add_flag("--force", options->force, "Replace an existing case file");
   add_units_option(*command);

@@ -140,7 +140,8 @@ int finish(const StabilityArguments& options, const StabilityResult& result,
   const int status = print_result_warnings(result.warnings, result.usable);
   if (!missing.empty())
     throw Error(ExitCode::io,
-                fmt::format("{}: not there yet; submit again, or repeat ripstop stability without --gather",
+                fmt::format("{}: not computed yet; submit again, or repeat ripstop stability without "
+                            "--gather",
                             fmt::join(missing, ", ")));
   return status;
 }

@@ -47,7 +47,7 @@ struct SteadyArguments {
 
 void print_unsteady(const UnsteadyResult& unsteady) {
   const WindowAverage& w = unsteady.watched;
-  print_row("drag in time",
+  print_row("time-averaged drag",
             fmt::format("mean over {:.3f} s after a start-up of {:.3f} s, {} steps; standard error {}, "
                         "standard deviation {:.2g} N",
                         w.time - w.start_up, w.start_up, w.steps,
@@ -58,7 +58,7 @@ void print_unsteady(const UnsteadyResult& unsteady) {
   print_row("side force",
             fmt::format("x {:.2g} +- {:.2g}, y {:.2g} +- {:.2g} N; standard deviation {:.2g} N{}",
                         w.side_force.x, w.side_error.x, w.side_force.y, w.side_error.y, w.side_deviation,
-                        w.swing > 0 ? fmt::format(", strongest frequency {:.3g} Hz (Strouhal number {:.2f})",
+                        w.swing > 0 ? fmt::format(", dominant frequency {:.3g} Hz (Strouhal number {:.2f})",
                                                   w.swing, unsteady.strouhal)
                                     : ""));
 }

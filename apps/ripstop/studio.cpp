@@ -72,7 +72,7 @@ void add_studio(CLI::App& app, int& status) {
   command->footer(
       "The page is served to this computer only, under an address with a random token. It reads and writes "
       "files of\n"
-      "the folder; runs are in its runs/ and have the form of all run folders.\n"
+      "the folder, and writes ordinary run folders into its subfolder runs/.\n"
       "Example: ripstop studio my-parachutes --no-browser");
   command->add_option("folder", options->folder, "Folder with the case files");
   add_number(*command, "--port", options->port, from(0).up_to(65535), "Port")->default_str("a free one");

@@ -78,10 +78,13 @@ int write_scripts(const SweepArguments& options, const std::vector<SweepPoint>& 
   const std::vector<BatchFile> files = slurm_files(sweep);
   prepare_sweep(points, settings);
   write_and_tell(settings.folder, files, "bash", "submit");
-  fmt::print(
-      "{} runs in {} after another{}\n", points.size(),
-      waves.size() == 1 ? "one array, not one" : fmt::format("{} arrays, one", waves.size()),
-      waves.size() == 1 ? "" : ", as each starts from a neighbouring run; --cold needs one array only");
+  if (waves.size() == 1)
+    fmt::print("{} runs in one array\n", points.size());
+  else
+    fmt::print(
+        "{} runs in {} arrays, one after another, because runs start from neighbouring runs; with --cold one "
+        "array is enough\n",
+        points.size(), waves.size());
   return 0;
 }
 
@@ -164,7 +167,7 @@ void add_sweep(CLI::App& app, int& status) {
   command->add_option("--vary", options->vary, "KEY=V1,V2,...: values of any key of the case; repeatable")
       ->expected(1)
       ->take_all();
-  command->add_option("--row", options->rows, "KEY=V,KEY=V: settings of one run of a table; repeatable")
+  command->add_option("--row", options->rows, "KEY=V,KEY=V: settings of one run; repeatable")
       ->expected(1)
       ->take_all();
   command->add_flag("--linear", options->overrides.linear,

@@ -14,8 +14,9 @@ PAGES = pathlib.Path(__file__).resolve().parent.parent / "reference"
 
 COMMANDS = """# All commands
 
-`make reference` writes this page from `ripstop --help` and the `--help` of every command. An option with values is followed by
-their type. Every command also has `--help`. Exit codes are listed in [conventions](../conventions.md#exit-codes).
+`make reference` writes this page from `ripstop --help` and the `--help` of every command. The column "values" has
+the type of the values of an option, or the words that it accepts. Every command also has `--help`. Exit codes are listed
+in [conventions](../conventions.md#exit-codes).
 """
 
 PYTHON = """# Python package

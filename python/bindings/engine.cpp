@@ -171,7 +171,7 @@ void add_engines(py::module_& module) {
       "difference over each triangle\n  of the canopy, inner over outer side [Pa], as (n,). triangles: "
       "corners, (n, 3, 3) [m]; velocity of the\n  stream, 3 values [m/s]; density [kg/m3]. It is called "
       "once in each coupling iteration.\nmeaning: one clause for the list of engines.\n\nThe porous sheet "
-      "(flow.porosity_model = \"sheet\") is required; jets, time steps and averages are not "
+      "(flow.porosity_model = \"sheet\") is required; open jets and unsteady flow are not "
       "available.\nThe flow field of a run is the undisturbed stream.");
 }
 

@@ -61,11 +61,11 @@ void add_fabric(py::module_& module) {
       "Nodes at the four corners of every cloth cell; the first is -1 for a missing cell.");
   type.def_property_readonly(
       "stress", [](const py::object& self) { return table_of(fabric_of(self).solution.stress, self); },
-      "Of every cell of cloth: columns in [N/m], max_strain without unit.");
+      "Stress of every cloth cell: columns in [N/m], max_strain without unit.");
   module.def("fabric", &fabric, py::arg("case"), py::kw_only(), py::arg("pressure_pa") = py::none(),
              py::arg("out") = py::none(), py::arg("mesh") = py::none(),
              "Computes the shape under a uniform pressure, without a flow: ripstop fabric.\n\n"
-             "pressure_pa: None: the dynamic pressure of the case.\n"
+             "pressure_pa: uniform pressure difference [Pa]. None: the dynamic pressure of the case.\n"
              "out: a folder for result.json, a picture and files for ParaView. None: nothing is written.\n"
              "mesh: a Mesh in place of the canopy of the case.\n\n"
              "A result that is not converged is also returned: check `converged`.");

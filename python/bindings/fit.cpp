@@ -92,12 +92,12 @@ void add_fit(py::module_& module) {
   add_class<FitProgress>(module, "FitProgress", "One step of the fit with virtual coupons.");
   add_class<Estimate>(
       module, "Estimate",
-      "A value with its standard error and confidence interval; NaN: one sample determines none.");
+      "A value with its standard error and confidence interval, which are NaN for one sample.");
   add_class<DirectionFit>(module, "FittedDirection",
                           "Mean curve and fit of the records of one direction over the strain. Loads are in "
                           "[N/m], for a line in [N].");
   add_class<CouponComparison>(module, "CouponComparison",
-                              "A measured curve and that of the virtual coupon [N/m].");
+                              "Measured curve and curve of the virtual coupon [N/m].");
   py::class_<FitResult> type(module, "Fit", "A material fitted to tensile test records.");
   add_json(type, [](const FitResult& r) -> const FitResult& { return r; });
   type.def("to_toml", &material_toml, "Returns the material file, with its provenance in comments.");
@@ -135,13 +135,13 @@ void add_fit(py::module_& module) {
       py::arg("zero_offset") = false, py::arg("columns") = "", py::arg("decimal") = "",
       py::arg("progress") = py::none(), py::arg("threads") = 0, py::arg("out") = py::none(),
       "Fits a material to tensile test records: ripstop fit.\n\nbench: file of the test campaign "
-      "(TOML).\ncoupons: whether xi and eps are fitted with virtual coupons.\ndegree: degree of the "
-      "curves; 0: as in the campaign.\nzero_offset: True: zero load at zero strain, regardless of the "
-      "campaign.\ncolumns: columns of the records that are not found by their headings, for example\n  "
+      "(TOML).\ncoupons: whether xi and eps are fitted with virtual coupons.\ndegree: degree of the curves; "
+      "0: as in the campaign.\nzero_offset: whether the load at zero strain is set to 0; False: as in the "
+      "campaign.\ncolumns: columns of the records that are not recognised by their headings, for example\n  "
       "\"force=Kraft [kN],extension=Weg [mm]\".\ndecimal: auto, point or comma.\nprogress: called with a "
-      "FitProgress after every coupon; an exception in it stops "
-      "the fit.\nthreads: number of threads; 0: all cores.\nout: folder for the material and its "
-      "plots. None: no files.\n\nLoads are in [N/m] for cloth and tape, in [N] for a line.");
+      "FitProgress after every coupon; an exception in it stops the fit.\nthreads: number of threads; 0: all "
+      "cores.\nout: folder for the material and its plots. None: no files.\n\nLoads are in [N/m] for cloth "
+      "and tape, in [N] for a line.");
 }
 
 }  // namespace ripstop::python

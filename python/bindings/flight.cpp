@@ -15,7 +15,7 @@
 namespace ripstop::python {
 
 void add_flight(py::module_& module) {
-  add_class<DescentRow>(module, "DescentRow", "The descent at one height.");
+  add_class<DescentRow>(module, "DescentRow", "Rate of descent at one height, and time to the ground.");
   add_result<Descent>(module, "Descent", "Descent of a payload under the parachute of a steady run.");
   module.def(
       "descent",

@@ -104,8 +104,7 @@ const PyFlight& run_of_flight(const py::object& self) {
 }  // namespace
 
 void add_fly(py::module_& module) {
-  add_class<Handover>(module, "Handover",
-                      "How a flight continues an inflation: quantities before and after.");
+  add_class<Handover>(module, "Handover", "End of an inflation and start of the flight that continues it.");
   add_class<FlightProgress>(module, "FlightProgress", "Progress of a flight.");
   py::class_<PyFlight> type(module, "Flight",
                             "Result of a free flight: the values of result.json, and arrays.");
@@ -128,18 +127,18 @@ void add_fly(py::module_& module) {
     return shown;
   });
   type.def_property_readonly(
-      "case", [](const PyFlight& run) { return run.made; }, "The Case that flew.");
+      "case", [](const PyFlight& run) { return run.made; }, "Case of the flight.");
   module.def(
       "fly", &fly, py::arg("case"), py::kw_only(), py::arg("progress") = py::none(), py::arg("threads") = 0,
       py::arg("out") = py::none(), py::arg("fresh") = false, py::arg("from_run") = py::none(),
       py::arg("deploy") = false,
       "Computes the free flight of parachute and payload: ripstop fly.\n\n"
-      "progress: called with a FlightProgress after every step of the flow; an exception that it\n"
-      "  raises ends the run.\n"
-      "threads: 0: coupling.threads of the case.\n"
-      "out: a run folder, as of steady(); of a finished flight there, the numbers are read and the\n"
-      "  arrays are empty. None: no files are written.\n"
-      "fresh: replace an earlier run in that folder.\n"
+      "progress: called with a FlightProgress after every step of the flow; an exception in it\n"
+      "  stops the run.\n"
+      "threads: number of threads; 0: coupling.threads of the case.\n"
+      "out: run folder, as in steady(). The values of a finished flight are read from it, and the\n"
+      "  arrays are empty. None: no files.\n"
+      "fresh: replace the run in the folder.\n"
       "from_run: folder of a coupled inflation with the payload, from whose end the flight continues.\n"
       "deploy: compute that inflation first, as flight.start = \"inflation\" does.");
 }

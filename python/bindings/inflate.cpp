@@ -170,10 +170,10 @@ void add_inflate(py::module_& module) {
       py::arg("out") = py::none(), py::arg("fresh") = false,
       "Computes the opening of the folded canopy and its load on the riser: ripstop inflate.\n\nsteady: a "
       "Steady or its run folder, whose drag determines the pressure.\npressure_pa: pressure difference over "
-      "the canopy [Pa]. Without both: as given by the case.\nprogress: called with an OpeningProgress after "
+      "the canopy [Pa]. If both are None, the case gives it.\nprogress: called with an OpeningProgress after "
       "every block of the history; an exception in it stops\n  the run.\nthreads: number of threads; 0: "
       "coupling.threads of the case.\nout: run folder, as in steady(). The values of a finished run are read "
-      "from it, and the arrays are\n  empty. None: no files.\n\n"
+      "from it, and the arrays are\n  empty. None: no files.\nfresh: replace the run in the folder.\n\n"
       "Loads in [N], times in [s].");
 }
 

@@ -23,12 +23,12 @@ HardwareNeed.rated_load_n: required rated load
 HardwareNeed.breaking_load_n: required breaking load of a metal part
 HardwareNeed.textile_breaking_load_n: required breaking load of a textile part
 Load.peak_load_n: peak load of the trajectory
-Load.peak_time_s: its time after line stretch
+Load.peak_time_s: time of this peak after line stretch
 Load.record_peak_load_n: peak load of the trajectory with the drag area of a computed opening; None: without one
 Load.snatch: snatch load; None: without a speed difference
-Load.steady_speed_m_s: rate of steady descent, or speed at impact
-Load.steady_time_s: time after line stretch at which it is reached
-Load.steady_drop_m: height lost until then
+Load.steady_speed_m_s: rate of steady descent; if it is not reached: speed at impact
+Load.steady_time_s: time from line stretch to this speed
+Load.steady_drop_m: height lost from line stretch to this speed
 Load.steady_reached: whether the descent becomes steady above the ground
 StageLoads.begin_s: start of the stage after line stretch
 StageLoads.speed_m_s: airspeed at the start of the stage
@@ -40,14 +40,14 @@ StageLoads.mass_ratio: mass ratio R_m
 StageLoads.methods: load by each method
 StageLoads.highest_n: largest load of the applicable methods
 StageLoads.lowest_n: smallest load of the applicable methods
-StageLoads.spread: difference of both over the mean of the applicable methods
+StageLoads.spread: difference of highest_n and lowest_n over the mean of the applicable methods
 Snatch.speed_difference_m_s: speed difference of payload and canopy at line stretch
 Snatch.load_n: snatch load
 Snatch.time_s: time from line stretch to the snatch load
 Snatch.stretch_m: extension of lines, riser and hardware at the snatch load
 Snatch.line_load_n: load of one line
-Snatch.line_margin: breaking load of a line over its load
-Snatch.riser_margin: breaking load of the riser over the snatch load; None: there is no riser
+Snatch.line_margin: breaking load of a line over line_load_n; not a margin of safety
+Snatch.riser_margin: breaking load of the riser over the snatch load, not a margin of safety; None: there is no riser
 Snatch.speed_difference_from: source of the speed difference
 Snatch.model: model of the snatch load, in words
 Snatch.deployment_load_n: snatch load by [deployment] of the case; None: it is load_n, or the case has no [deployment]
@@ -60,7 +60,7 @@ SnatchChange.half_stiffness_n: snatch load with half the stiffness; None: a part
 SnatchChange.double_stiffness_n: snatch load with twice the stiffness; None: a part breaks
 Margin.member: member: cloth, tape, a line, riser or a part of the hardware
 Margin.load: largest load of the member, without the safety factor
-Margin.load_from: kind of load of hardware in an opening; None: of other members and results
+Margin.load_from: kind of the load of hardware in an opening; None: other members and results
 Margin.unit: unit of load and strength: N/m for cloth, else N
 Margin.strength: strength of the material as sold; None: not known
 Margin.strength_from: source of the strength
@@ -98,8 +98,8 @@ FastestDeployment.design_method: method of the design load, whose speed is the r
 FastestDeployment.advice: speed to use, and the reason why the methods differ
 FastestDeployment.methods: fastest safe speed by each method
 SafeSpeed.speed_m_s: fastest safe airspeed at line stretch; None: no limit in the searched range
-SafeSpeed.lowest_m_s: the same with loads larger by their uncertainty
-SafeSpeed.highest_m_s: the same with loads smaller by their uncertainty
+SafeSpeed.lowest_m_s: fastest safe airspeed if the loads are larger by their uncertainty
+SafeSpeed.highest_m_s: fastest safe airspeed if the loads are smaller by their uncertainty
 SafeSpeed.unsafe_at_m_s: lowest speed of the search, if the margin is not kept even there
 SafeSpeed.load_n: load at the fastest safe speed
 SafeSpeed.weakest_member: member that reaches its allowable load first
@@ -115,15 +115,15 @@ RecoveryStage.speed_m_s: airspeed at the opening
 RecoveryStage.lowest_load_n: smallest opening load of the applicable methods
 RecoveryStage.highest_load_n: largest opening load of the applicable methods
 RecoveryStage.lowest_drag_coefficient: lower end of the range of the drag coefficient in descent on S0
-RecoveryStage.highest_drag_coefficient: upper end of this range
+RecoveryStage.highest_drag_coefficient: upper end of the range of the drag coefficient in descent on S0
 RecoveryStage.drag_coefficient_range_from: source of this range
-RecoveryStage.lowest_design_load_n: design load at the lowest airspeed less its uncertainty
-RecoveryStage.highest_design_load_n: design load at the highest airspeed plus its uncertainty
-RecoveryStage.load_uncertainty: relative uncertainty of the load at one speed: range of the drag coefficient and scatter
+RecoveryStage.lowest_design_load_n: design load at the lowest airspeed, minus the uncertainty of the load
+RecoveryStage.highest_design_load_n: design load at the highest airspeed, plus the uncertainty of the load
+RecoveryStage.load_uncertainty: relative uncertainty of the load at one airspeed, from the range of the drag coefficient and the scatter of openings
 RecoveryStage.snatch_load_n: snatch load by [deployment] of its case, at the highest airspeed; None: without [deployment]
-RecoveryStage.separation_load_n: load on the stretching hardware of its case when two sections part; None: not asked for, or no such hardware
-RecoveryStage.margins: margins under the largest design load; of all but tape or hem under a larger snatch load, of hardware under a larger separation load
-RecoveryStage.required_hardware: strength that each part of the hardware needs under the same load
+RecoveryStage.separation_load_n: load on the hardware with length_m and stiffness_n when two sections part; None: no separation speed, or no such hardware
+RecoveryStage.margins: margins of safety under highest_design_load_n; for lines, riser and hardware under the snatch load if it is larger; for hardware under the separation load if it is larger
+RecoveryStage.required_hardware: strength that each part of the hardware needs under the largest of these three loads
 RecoveryStage.fastest_safe_deployment: fastest safe deployment by the method of the design load
 RecoveryStage.descent_rate_m_s: rate of descent at the end of the stage
 RecoveryStage.duration_s: duration of the stage
@@ -150,9 +150,9 @@ Recovery.sections: kinetic energy of each section
 family: canopy family: name of its example
 type: value of parachute.type
 Family.drag_coefficient: axial drag coefficient of the example on S0, computed by Ripstop
-Family.speed_m_s: speed of that run
-Family.density_kg_m3: density of the air in that run
-Family.made: command and machine of that run
+Family.speed_m_s: speed of the run of the example
+Family.density_kg_m3: density of the air in the run of the example
+Family.made: command and machine of the run of the example
 Family.flown: drag coefficient in descent; None: not flown
 FlownDrag.drag_coefficient: drag coefficient in descent on S0
 FlownDrag.standard_error: standard error of the coefficient
@@ -167,13 +167,13 @@ Size.tape_material_from: reason for the tape
 Size.deployment_speed_m_s: speed at deployment
 Size.load_uncertainty: relative uncertainty of the design load
 Size.smallest_margin_of_safety: margin of safety of the weakest member under the largest load
-Size.smallest_margin_member: this member
+Size.smallest_margin_member: weakest member under the largest load
 Size.opening_load_n: largest opening load of the applicable methods
 Size.opening_load_low_n: smallest opening load of the applicable methods
 Size.checks: runs of the verification, in order
 Size.opening: opening loads by all methods
 SizeCheck.descent_rate_m_s: computed rate of descent
-SizeCheck.descent_rate_standard_error_m_s: its standard error; None: steady run
+SizeCheck.descent_rate_standard_error_m_s: standard error of this rate; None: steady run
 )";
 
 }  // namespace ripstop::python

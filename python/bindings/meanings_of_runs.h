@@ -70,7 +70,7 @@ Damping.peak_load_n: peak load of the best opening, low-passed as the measured o
 Damping.measured_peak_n: measured peak load
 Damping.every_step_peak_n: peak load of the best opening over all time steps, unfiltered
 Damping.inflation_time_s: time after which the load of the best opening remains within 10 % of the steady load
-Damping.measured_inflation_time_s: the same of the measurement
+Damping.measured_inflation_time_s: measured time after which the load remains within 10 % of the steady load
 Damping.pressure_pa: uniform pressure difference
 Damping.trials: openings in the order of their computation
 DampingTrial.damping_n_s_m3: damping C_a of the opening
@@ -86,7 +86,7 @@ Check.vent_area_m2: area of the vent as constructed
 Check.slot_area_m2: area of slots and gaps as constructed
 Check.mass_kg: masses of the parts
 Check.cloth_nodes: number of nodes of the cloth
-Check.resolved_cloth_nodes: number of cloth nodes for a diameter within 1 %
+Check.resolved_cloth_nodes: number of cloth nodes from which the error of the diameter is below 1 %
 Check.springs: number of springs
 Check.smallest_spring_m: rest length of the shortest spring
 Check.smallest_spring_part: part with the shortest spring
@@ -132,10 +132,10 @@ Estimate.value: the value
 Estimate.standard_error: standard error of the value
 Estimate.low: lower end of the 95 % interval
 Estimate.high: upper end of the 95 % interval
-FitProgress.pulls: number of coupons pulled so far
-FitProgress.shear_fraction: shear fraction xi of the last coupons
-FitProgress.bending_fraction: bending fraction eps of the last coupons
-FitProgress.misfit: misfit of the last coupons, which the fit minimises
+FitProgress.pulls: number of virtual coupon tests so far
+FitProgress.shear_fraction: shear fraction xi of the last tests
+FitProgress.bending_fraction: bending fraction eps of the last tests
+FitProgress.misfit: misfit of the last tests, which the fit minimises
 FittedDirection.name: direction: warp, weft, bias, line or tape
 FittedDirection.orientation_deg: angle between load and warp
 FittedDirection.degree: degree of the polynomial
@@ -205,12 +205,12 @@ Handover.same_flow: whether the flow continues unchanged; False: it is interpola
 Handover.speed_m_s: speed of the payload
 Handover.path_angle_deg: angle of its path below the horizon
 Handover.opening_peak_load_n: peak load of the inflation
-Handover.load_before_n: load on the riser before
-Handover.load_after_n: load on the riser after
-Handover.drag_before_n: drag of the canopy before
-Handover.drag_after_n: drag of the canopy after
-Handover.elastic_energy_before_j: elastic energy of cloth and lines before
-Handover.elastic_energy_after_j: elastic energy of cloth and lines after
+Handover.load_before_n: load on the riser at the end of the inflation
+Handover.load_after_n: load on the riser at the start of the flight
+Handover.drag_before_n: drag of the canopy at the end of the inflation
+Handover.drag_after_n: drag of the canopy at the start of the flight
+Handover.elastic_energy_before_j: elastic energy of cloth and lines at the end of the inflation
+Handover.elastic_energy_after_j: elastic energy of cloth and lines at the start of the flight
 # inflate()
 Inflation.height_m: height above sea level at the start; None: result of an earlier version
 Inflation.peak_load_n: peak load on the riser after the start-up, unfiltered
@@ -228,16 +228,14 @@ Inflation.deployment: deployment before the opening; None: without one
 Inflation.speed_at_end_m_s: speed of the payload at the end; None: fixed end
 Inflation.path_angle_at_end_deg: angle of the path of the payload below the horizon at the end
 Inflation.steady_drag_returned: steady load over the given steady drag
-Inflation.line_damping_s: relative damping of lines and tape as a time
-Inflation.cloth_damping_s: relative damping of the cloth as a time
 Inflation.damping_n_s_m3: absolute damping C_a
 Inflation.quadratic_damping_n_s2_m4: quadratic absolute damping
 Inflation.inner_fold_radius_m: radius of the inner folds of the skirt at the start
 Inflation.outer_fold_radius_m: radius of the outer folds of the skirt at the start
 Inflation.handbook: loads of the same opening by handbook methods, for a payload
-Inflation.energy_residual: largest residual of the energy balance, over the work
+Inflation.energy_residual: largest residual of the energy balance, over the work of the pressure on the cloth
 Inflation.momentum_residual: largest residual of the momentum balance of the air in any step, over the peak load
-Inflation.step_changes: number of reductions of the time step by strain
+Inflation.step_changes: number of reductions of the time step because of strain
 Inflation.measured_inflation_time_s: measured time after which the load remains within 10 % of the steady load
 InflationShot.time: time since deployment [s]
 InflationShot.positions: position of every node [m]
@@ -314,8 +312,8 @@ HeldPayload.weight_n: weight of payload and parachute
 HeldPayload.payload_drag_n: drag of the payload
 HeldPayload.drag_over_weight: drag of canopy and payload over the weight
 Measured.drag_n: measured drag; None: not given
-Measured.printed_nonlinear_n: drag of the nonlinear model of the source
-Measured.printed_linear_n: drag of the linear model of the source
+Measured.printed_nonlinear_n: drag by the nonlinear model of the source of the measurement
+Measured.printed_linear_n: drag by the linear model of this source
 SolvedDomain.part: "full" or "quarter"
 SolvedDomain.reason: reason for the full domain; empty for a quarter
 SolvedDomain.canopy_asymmetry_m: largest deviation of the shape from mirror symmetry

@@ -93,10 +93,11 @@ void add_methods(py::class_<PyMesh>& type) {
       "add_cloth", &add_cloth, py::arg("name"), py::arg("points"), py::kw_only(),
       py::arg("flat") = py::none(), py::arg("closed") = false,
       "Adds a lattice of canopy cloth and returns its node numbers, (rows, columns).\n\npoints: positions "
-      "at the start, (rows, columns, 3) [m]. Warp runs from row to row. The outer side is that\n  of (next "
-      "column) x (next row); a positive pressure acts on the inner side.\nflat: the cloth as cut, points "
-      "of a flat pattern, likewise; with `closed` one column more. None: as long as\n  at the "
-      "start.\nclosed: the first column follows the last one.");
+      "at the start, (rows, columns, 3) [m]. Warp runs from row to row. The outward normal is\n  (direction "
+      "to the next column) x (direction to the next row); a positive pressure acts on the inner side.\nflat: "
+      "points of the flat pattern of the cloth as cut, (rows, columns, 3) [m]; with `closed` one more "
+      "column.\n  None: the cloth is unstretched at the start.\nclosed: whether the first column follows the "
+      "last one.");
   type.def(
       "add_nodes",
       [](PyMesh& self, const Points& points) {
@@ -110,8 +111,8 @@ void add_methods(py::class_<PyMesh>& type) {
         self.own.add_line(nodes_of(nodes), lengths.value_or(std::vector<double>()));
       },
       py::arg("nodes"), py::arg("lengths_m") = py::none(),
-      "Adds a suspension line of the line material through nodes.\n\nlengths_m: unstretched, between each "
-      "two nodes. None: as at the start.");
+      "Adds a suspension line of the line material through nodes.\n\nlengths_m: unstretched "
+      "length between each two nodes. None: distance at the start.");
   type.def(
       "add_tape",
       [](PyMesh& self, const py::object& nodes, const Lengths& lengths) {
@@ -125,8 +126,8 @@ void add_methods(py::class_<PyMesh>& type) {
         self.own.tie(node, nodes_of(masters), weights.value_or(std::vector<double>()));
       },
       py::arg("node"), py::arg("masters"), py::arg("weights") = py::none(),
-      "Lets a node follow other nodes, for a seam: its position is the weighted mean of theirs. None: equal "
-      "weights.");
+      "Lets a node follow other nodes, for a seam: its position is the weighted mean of theirs.\n\n"
+      "weights: None: equal weights.");
   type.def(
       "fix", [](PyMesh& self, const py::object& nodes) { self.own.fix(nodes_of(nodes)); }, py::arg("nodes"),
       "Fixes nodes at their positions. At least one is needed.");
@@ -152,7 +153,7 @@ void add_mesh(py::module_& module) {
         const Settings resolved = given.settings();
         return PyMesh{OwnMesh(build_mesh(resolved.parachute(), resolved.materials()), resolved.materials())};
       },
-      py::arg("case"), "Returns the mesh that the case would have.");
+      py::arg("case"), "Returns the mesh of the case.");
   add_methods(type);
   type.def_property_readonly(
       "nodes",

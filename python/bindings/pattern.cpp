@@ -43,7 +43,7 @@ void add_piece(py::module_& module) {
         for (const Edge edge : p.edges) hems.append(edge == Edge::hem);
         return hems;
       },
-      "Whether the edge from each corner to the next is a free edge; otherwise it is a seam.");
+      "Whether the edge from each corner to the next is a hem; otherwise it is a seam.");
   type.def("__repr__", [](const Piece& p) {
     return "<ripstop.Piece '" + p.name + "', " + std::to_string(p.count) + " of them>";
   });
@@ -53,7 +53,7 @@ void add_piece(py::module_& module) {
 
 void add_pattern(py::module_& module) {
   add_class<BillRow>(module, "BillRow",
-                     "A row of the bill of materials; finished and cut in [m2] of cloth, else [m].");
+                     "A row of the bill of materials; sizes are in [m2] for cloth, else in [m].");
   add_class<CutLength>(module, "CutLength", "Pieces of tape or line, finished.");
   add_piece(module);
   py::class_<PatternResult> type =
@@ -96,8 +96,8 @@ void add_pattern(py::module_& module) {
       "[m2],\n"
       "masses in [kg].\n\n"
       "out: folder for the drawings and the bill. None: no files.\n"
-      "units: of the DXF files, \"mm\" or \"in\".\n"
-      "paper: also as PDF on sheets, \"a4\" or \"letter\".");
+      "units: unit of the DXF files, \"mm\" or \"in\".\n"
+      "paper: also write PDF files on sheets of this paper, \"a4\" or \"letter\"; empty: no PDF.");
 }
 
 }  // namespace ripstop::python

@@ -42,9 +42,9 @@ void add_fastest(py::module_& module) {
       py::arg("packed_drag_area_m2") = py::none(), py::arg("out") = py::none(),
       "Finds the largest airspeed [m/s] at line stretch at which every member keeps its margin of safety:\n"
       "ripstop load --fastest.\n\n"
-      "margin: margin of safety that is kept. steady, opening: run folders with the drag area. Other "
-      "arguments as\n"
-      "of load(). The attribute advice of the result names the speed to use.");
+      "margin: margin of safety that every member keeps.\n"
+      "steady, opening: run folders that provide the drag area.\n\n"
+      "Other arguments are those of load(). The attribute advice of the result names the speed to use.");
 }
 
 }  // namespace
@@ -52,7 +52,9 @@ void add_fastest(py::module_& module) {
 void add_recovery(py::module_& module) {
   add_class<Ranged>(module, "Ranged", "A value with its range.");
   add_class<SafeSpeed>(module, "SafeSpeed", "Fastest safe deployment by one method.");
-  add_class<RecoveryStage>(module, "RecoveryStage", "From the opening of a parachute to the next one.");
+  add_class<RecoveryStage>(
+      module, "RecoveryStage",
+      "Part of a recovery from the opening of a parachute to the opening of the next one, or to the ground.");
   add_class<SectionEnergy>(module, "SectionEnergy", "Kinetic energy of one section at landing.");
   py::class_<RecoveryResult> type =
       add_result<RecoveryResult>(module, "Recovery", "Recovery of a rocket from apogee to the ground.");
@@ -90,13 +92,17 @@ void add_recovery(py::module_& module) {
       "Computes the recovery of a rocket under drogue and main, from apogee to the ground: ripstop "
       "recovery.\n\n"
       "main, drogue: cases. Without a drogue (None) the main opens at apogee.\n"
-      "mass_kg: mass that descends, without the parachutes. apogee_m, main_height_m: above the ground.\n"
-      "speed_m_s: horizontal airspeed at apogee. delay_s: time from there to the first opening.\n"
+      "mass_kg: mass that descends, without the parachutes.\napogee_m, main_height_m: heights above the "
+      "ground of apogee and of the opening of the main.\n"
+      "speed_m_s: horizontal airspeed at apogee.\ndelay_s: time from apogee to the first opening.\n"
+      "ground_m: height of the ground above sea level.\n"
       "steady, drogue_steady: run folders with the drag areas.\n"
       "sections_kg: masses of the sections of the rocket, for their kinetic energy at landing.\n"
       "separation_speed_m_s: speed at which two sections part, for the load on the shock cord in "
       "[hardware].\n"
-      "out: folder for the files of the result. None: no files. Wind: [flight.wind] of the main's case.");
+      "bay_diameter_m: inner diameter of the parachute bay, for the length of the packed parachute.\n"
+      "out: folder for the files of the result. None: no files.\n\n"
+      "The wind is that of [flight.wind] of the main's case.");
 }
 
 }  // namespace ripstop::python

@@ -17,8 +17,8 @@ void add_report(py::module_& module) {
       },
       py::arg("runs"), py::kw_only(), py::arg("out") = py::none(),
       "Writes finished runs as one HTML file: ripstop report. Returns its path.\n\n"
-      "runs: folders of finished runs of steady, inflate or sweep.\n"
-      "out: the file. None: report.html in the folder of the run, or here for several runs.");
+      "runs: folders of finished runs of steady, inflate, fly or sweep.\n"
+      "out: the file. None: report.html in the run folder; for several runs, in the current folder.");
 }
 
 }  // namespace ripstop::python

@@ -101,7 +101,7 @@ PyCase scaled(const PyCase& self, double factor) {
 
 void add_size(py::module_& module) {
   add_class<SizeCheck>(module, "SizeCheck", "One run of the verification of a size.");
-  add_class<FlownDrag>(module, "FlownDrag", "Coefficient in descent of a free flight.");
+  add_class<FlownDrag>(module, "FlownDrag", "Drag coefficient in descent, from a free flight.");
   add_class<FamilyDrag>(module, "Family", "A canopy family with the computed drag of its example.");
   py::class_<SizeResult> type =
       add_result<SizeResult>(module, "Size", "Parachute for a payload and a descent rate.");
@@ -126,7 +126,8 @@ void add_size(py::module_& module) {
       py::arg("fly") = false,
       "Designs a parachute for a payload [kg] and a descent rate [m/s]: ripstop size.\n\n"
       "family: one of families().\n"
-      "height_m: height above sea level at which the rate is required, or density_kg_m3 instead.\n"
+      "height_m: height above sea level at which the rate is required.\n"
+      "density_kg_m3: density of the air, instead of the height.\n"
       "verify: adjust the diameter with steady runs until the rate is met; with fly, with free flights.\n"
       "coefficient: \"axial\" (steady flow), \"descent\" (flown) or \"safe\", the smaller one.\n"
       "progress: as in steady().");

@@ -51,7 +51,7 @@ StabilityResult stability(const PyCase& given, const std::vector<double>& angles
 void add_stability(py::module_& module) {
   add_class<StabilityRow>(module, "StabilityAngle",
                           "Coefficients at one angle of attack, with their standard errors.");
-  add_class<Trim>(module, "Trim", "An angle of attack without a moment about the confluence.");
+  add_class<Trim>(module, "Trim", "Angle of attack at which the moment about the confluence is zero.");
   add_result<StabilityResult>(module, "Stability", "Coefficients over the angle of attack, and trim angles.");
   module.def(
       "stability",
@@ -69,17 +69,18 @@ void add_stability(py::module_& module) {
       py::arg("equilibrium") = false, py::arg("cold") = false, py::arg("steady") = py::none(),
       py::arg("progress") = py::none(), py::arg("threads") = 0, py::arg("out") = py::none(),
       py::arg("fresh") = false,
-      "Computes force and moment coefficients over rising angles of attack, and trim angles: ripstop "
+      "Computes force and moment coefficients over the angle of attack, and trim angles: ripstop "
       "stability.\n\n"
+      "angles_deg: angles of attack, in increasing order.\n"
       "cells_across: cells of the flow over the projected diameter.\n"
       "equilibrium: the canopy deforms under the mean load of each angle; False: it keeps its shape on the\n"
       "  axis.\n"
-      "cold: start the flow of each angle from the uniform stream, not from the angle before.\n"
-      "steady: the folder of a finished steady run with the shape; None: it is computed first.\n"
-      "progress: called with a StabilityAngle after every angle; an exception in it ends the run.\n"
-      "threads: 0: coupling.threads of the case.\n"
-      "out: a folder; finished angles are read from it. None: nothing is written.\n"
-      "fresh: compute again the angles that the folder contains.");
+      "cold: start the flow of each angle from the uniform stream, not from that of the previous angle.\n"
+      "steady: folder of a finished steady run that provides the shape. None: this run is computed first.\n"
+      "progress: called with a StabilityAngle after every angle; an exception in it stops the run.\n"
+      "threads: number of threads; 0: coupling.threads of the case.\n"
+      "out: folder; finished angles are read from it. None: no files.\n"
+      "fresh: replace the angles in the folder.");
 }
 
 }  // namespace ripstop::python

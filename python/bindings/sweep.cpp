@@ -89,7 +89,8 @@ void add_sweep(py::module_& module) {
              "out: folder with one run folder for each combination; finished runs are read from it. None: no "
              "files.\n"
              "jobs: number of simultaneous runs; 0: as many as cores and free memory allow.\n"
-             "warm: True: a run starts from its neighbour.\nfresh: replace the runs in the folder.\n\n"
+             "warm: whether each run starts from a neighbouring run; False: from the undeformed "
+             "canopy.\nfresh: replace the runs in the folder.\n\n"
              "A failed run has `done` False and an `error`; the others continue.");
 }
 

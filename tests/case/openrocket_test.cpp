@@ -76,7 +76,7 @@ TEST_F(OpenRocket, ADesignHasItsRecoveryDevicesWithStageEventAndMass) {
   EXPECT_EQ(main.simulation, "Sport launch");
   EXPECT_TRUE(marker.streamer);
   EXPECT_TRUE(marker.automatic);
-  EXPECT_TRUE(has_sentence(file.notes, "\"Main\": the deployment of 1 flight configuration"));
+  EXPECT_TRUE(has_sentence(file.notes, "\"Main\": the deployment settings of 1 flight configuration"));
 }
 
 TEST_F(OpenRocket, ACompressedDesignIsReadAsThePlainOne) {

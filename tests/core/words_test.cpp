@@ -34,6 +34,7 @@ TEST(Words, AnUncertaintyAndASourceNameTheirQuantity) {
 TEST(Words, AMomentIsNoForcePerWidth) {
   EXPECT_EQ(in_words("axial_moment_n_m").unit, "N m");
   EXPECT_EQ(in_words("moment_n_m").unit, "N m");
+  EXPECT_EQ(in_words("spreading_moment_n_m").unit, "N m");
   EXPECT_EQ(in_words("max_von_mises_n_m").unit, "N/m");
 }
 

@@ -278,8 +278,8 @@ TEST(LoadPlot, OfAReefedOpeningHasTheLineItsCutsAndEveryLevel) {
     return list;
   };
   std::vector<std::string> expected{
-      "maximum in the interval",     "load",          "low-passed at 100 Hz",     "steady",
-      "infinite mass, C_x C_D S0 q", "measured peak", "peak, model of the source"};
+      "maximum in the interval",     "load",          "low-passed at 100 Hz", "steady",
+      "infinite mass, C_x C_D S0 q", "measured peak", "peak, published model"};
   const std::vector<double> smooth(rows.size(), 120);
   EXPECT_EQ(names(load_plot(rows, smooth, result)), expected);
   result.stages = std::vector<StageSummary>(2);

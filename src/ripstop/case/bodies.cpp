@@ -110,19 +110,20 @@ void check_bodies(const Case& given, PorosityModel model, Findings& findings) {
       if (value > limit) findings.add(table + "." + key, value, fmt::format("at most {:g}", limit), why);
     };
     if (const auto* c = std::get_if<CylinderKeys>(&keys.shape))
-      at_most("nose_length_m", c->nose_length_m, c->length_m, "the nose is part of the length");
+      at_most("nose_length_m", c->nose_length_m, c->length_m, "the length includes the nose");
     if (const auto* s = std::get_if<CapsuleKeys>(&keys.shape)) {
-      at_most("base_diameter_m", s->base_diameter_m, s->diameter_m, "the base is not wider than the capsule");
+      at_most("base_diameter_m", s->base_diameter_m, s->diameter_m,
+              "the base must not be wider than the capsule");
       if (s->nose_radius_m < 0.5 * s->diameter_m) {
         findings.add(table + ".nose_radius_m", s->nose_radius_m,
                      fmt::format("at least {:g}", 0.5 * s->diameter_m),
-                     "the front is a part of a sphere as wide as the capsule");
+                     "a smaller sphere does not reach the edge of the capsule");
       } else {
         const double r = s->nose_radius_m, half = 0.5 * s->diameter_m,
                      front = r - std::sqrt(r * r - half * half);
         if (s->length_m <= front)
           findings.add(table + ".length_m", s->length_m, fmt::format("above {:.4g}", front),
-                       "the spherical front alone is so long");
+                       "the spherical front alone has this length");
       }
     }
   }

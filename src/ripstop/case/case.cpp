@@ -32,12 +32,12 @@ void describe(Fields& fields, Measured& measured) {
   fields.number("drag_n", measured.drag_n, above(0).up_to(1e7), "Measured drag.").absent("no measured value");
   fields
       .number("printed_nonlinear_n", measured.printed_nonlinear_n, above(0).up_to(1e7),
-              "Drag of the nonlinear model of the source.")
-      .absent("no value of the source");
+              "Drag that the source of the measurement computed with its nonlinear model.")
+      .absent("no published value");
   fields
       .number("printed_linear_n", measured.printed_linear_n, above(0).up_to(1e7),
-              "Drag of the linear model of the source.")
-      .absent("no value of the source");
+              "Drag that this source computed with its linear model.")
+      .absent("no published value");
 }
 
 void describe(Fields& fields, Case& given) {
@@ -55,7 +55,8 @@ void describe(Fields& fields, Case& given) {
   fields.named_tables("body", given.bodies,
                       "Rigid bodies upstream of the canopy, such as the rocket or the capsule: [body.NAME].");
   fields.table("cluster", given.cluster,
-               "A cluster of equal canopies in place of one: `ripstop steady` only, experimental.");
+               "Cluster of equal canopies in place of one, only for `ripstop steady` and `ripstop sweep`; "
+               "experimental.");
   fields.table("coupling", given.coupling, "Steady coupling of cloth and flow.");
   fields.table("inflation", given.inflation, "The opening of the folded canopy.");
   fields.table("deployment", given.deployment,

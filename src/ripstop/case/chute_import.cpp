@@ -223,8 +223,8 @@ class Importer {
                 piece.sewn ? "sewn to it along the whole edge"
                            : "different fullness: attached at the radials only");
       canopy.pieces.push_back(std::move(piece));
-      mapped("{}: piece {} of the gore, {} points, fullness {} and {}", s.place, canopy.pieces.size(),
-             s.points.size(), s.first_fullness, s.last_fullness);
+      mapped("{}: piece {} of the gore, {} points, fullness {} at the lower and {} at the upper edge",
+             s.place, canopy.pieces.size(), s.points.size(), s.first_fullness, s.last_fullness);
     }
     open_vent(canopy, widest);
     write_profile(canopy);
@@ -330,10 +330,10 @@ class Importer {
     for (const auto& [name, value] : file_.inputs)
       mapped("input {} = {:.9g}: included in the dimensions", name, value);
     if (!file_.parameters.empty())
-      mapped("parameters, {}: evaluated and included in the dimensions; the formulas are not kept",
+      mapped("parameters ({}): evaluated and included in the dimensions; the formulas are not kept",
              file_.parameters.size());
     if (!file_.instructions.empty())
-      mapped("instructions, {}: comments at the top of the case", file_.instructions.size());
+      mapped("instructions ({}): comments at the top of the case", file_.instructions.size());
     if (result_.type == "cross") {
       changed("2 gores: written as gores = 4, the arms of a cross");
     } else {
@@ -373,7 +373,7 @@ class Importer {
         options_.line_length.value_or(std::ceil(100 * std::max(nominal, 1.2 * size.skirt_radius)) / 100);
     if (!options_.line_count) assumed("{} lines: the file has none (--lines)", line_count());
     if (!options_.line_length)
-      assumed("lines of {:.6g} m, equal to about the nominal diameter (--line-length)", length);
+      assumed("lines of {:.6g} m, about the nominal diameter (--line-length)", length);
     assumed(
         "Spectra line; no riser; tape along seams and hems where the load at the flow speed requires it "
         "(parachute.tape.material)");

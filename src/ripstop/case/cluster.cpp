@@ -69,10 +69,12 @@ void check_cluster(const Case& given, const FlowSettings& flow, Findings& findin
     findings.add("flow.tunnel.kind", "", "\"free-air\"", "a cluster is computed in free air only");
   if (!given.bodies.empty())
     findings.add("body." + given.bodies.begin()->first, "", "",
-                 "rigid bodies and a cluster cannot be in one case yet; remove one of the tables");
+                 "rigid bodies and a cluster cannot be in one case; remove one of the tables");
   if (given.payload.mass_kg)
-    findings.add("payload.mass_kg", *given.payload.mass_kg, "",
-                 "the speed of a cluster is not searched; remove the payload and give flow.speed_m_s");
+    findings.add(
+        "payload.mass_kg", *given.payload.mass_kg, "",
+        "the speed at which drag equals weight is not computed for a cluster; remove the payload and give "
+        "flow.speed_m_s");
   const double across = start_diameter(given.parachute);
   const Vec3 room = cluster_arm(given) * layout_of(*given.cluster).width();
   const double needed[] = {room.x + across, room.y + across}, box[] = {flow.box_m.x, flow.box_m.y},

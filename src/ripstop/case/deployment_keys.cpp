@@ -10,7 +10,7 @@ void describe_container(Fields& fields, DeploymentKeys& keys) {
   fields.choice("container", keys.container, {{"bag", Container::bag}, {"wrap", Container::wrap}},
                 "Container of the packed canopy. A wrap has other default values of mass and strip force.");
   fields.number("mass_kg", keys.mass_kg, from(0).up_to(1000), "Mass of the empty container.")
-      .absent("a bag 10 %, a wrap 3 % of the parachute's mass");
+      .absent("10 % of the parachute's mass for a bag, 3 % for a wrap");
   fields
       .number("drag_area_m2", keys.drag_area_m2, from(0).up_to(100),
               "C_D S of the packed container in the stream.")
@@ -18,7 +18,7 @@ void describe_container(Fields& fields, DeploymentKeys& keys) {
   fields
       .number("length_m", keys.length_m, above(0).up_to(100),
               "Length of the packed canopy along the path, for a check: it must be shorter than lines and "
-              "riser, and than 0.9 of the canopy.")
+              "riser together, and shorter than 0.9 times the length of the canopy.")
       .absent("not checked");
 }
 
@@ -36,7 +36,7 @@ void describe_extraction(Fields& fields, DeploymentKeys& keys) {
       .absent("from ejection_impulse_n_s, else 0");
   fields
       .number("ejection_impulse_n_s", keys.ejection_impulse_n_s, from(0).up_to(1e5),
-              "Impulse between payload and packed parachute, of a mortar, a spring or a charge.")
+              "Impulse of a mortar, a spring or a charge between payload and packed parachute.")
       .absent("from relative_speed_m_s");
 }
 
@@ -51,7 +51,7 @@ void describe(Fields& fields, DeploymentKeys& keys) {
   fields
       .number("strip_force_n", keys.strip_force_n, from(0).up_to(1e5),
               "Force that pulls the canopy out of its bag, or that unrolls it from its wrap.")
-      .absent("weight of the canopy from a bag, half of it from a wrap");
+      .absent("weight of the canopy for a bag, half of it for a wrap");
   fields
       .number("line_force_n", keys.line_force_n, from(0).up_to(1e5),
               "Force that pulls the lines out of their stows.")

@@ -40,7 +40,7 @@ void describe(Fields& fields, FlightSettings& flight) {
   fields.choice(
       "start", flight.start,
       {{"steady", FlightSettings::Start::steady}, {"inflation", FlightSettings::Start::inflation}},
-      "\"steady\": equilibrium on the axis at the speed at which drag is weight. \"inflation\": the "
+      "\"steady\": equilibrium on the axis at the speed at which drag equals weight. \"inflation\": the "
       "end of a coupled inflation with the payload, which is computed first.");
   fields.number("duration_s", flight.duration_s, above(0).up_to(1e4),
                 "Longest time of flight, without the inflation.");
@@ -58,8 +58,8 @@ void describe(Fields& fields, FlightSettings& flight) {
                 "Rate of change of angle_deg at the start.");
   fields
       .vector("velocity_m_s", flight.velocity_m_s, from(-100).up_to(100),
-              "Velocity of the parachute over the ground at the start, z up.")
-      .absent("the wind, and downward the speed at which drag is weight");
+              "Velocity of the parachute relative to the ground at the start, z upward.")
+      .absent("horizontally the wind, downward the speed at which drag equals weight");
   fields
       .number("height_m", flight.height_m, above(0).up_to(highest_height),
               "Height of the payload above the ground at the start; the flight ends at the ground.")

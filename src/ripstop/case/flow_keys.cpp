@@ -231,13 +231,13 @@ void describe(Fields& fields, FlowKeys& flow) {
               "Atmosphere, 1976.")
       .absent("the density determines the air");
   fields.number("density_kg_m3", flow.density_kg_m3, above(0).up_to(20), "Density of the air.")
-      .absent("of height_m, else of the row of [[measured]] with the nominal speed speed_m_s");
+      .absent("from height_m, else from the row of [[measured]] whose nominal speed is speed_m_s");
   fields.number("viscosity_pa_s", flow.viscosity_pa_s, above(0).up_to(1e-2), "Dynamic viscosity.")
-      .absent("of height_m, else `1.84e-05`");
+      .absent("from height_m, else `1.84e-05`");
   fields
       .number("temperature_k", flow.temperature_k, from(100).up_to(1000),
               "Temperature of the air; the pressure follows from the density.")
-      .absent("of height_m, else `293.15`");
+      .absent("from height_m, else `293.15`");
   fields.number("turbulence_intensity", flow.turbulence_intensity, above(0).up_to(1),
                 "Turbulence intensity at the inlet (assumed).");
   fields.number("viscosity_ratio", flow.viscosity_ratio, above(0).up_to(1e5),

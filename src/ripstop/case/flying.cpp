@@ -53,7 +53,7 @@ void check_flight_keys(const Case& given) {
   if (!given.payload.mass_kg)
     refuse("payload.mass_kg is not given: a flight needs a payload; set it in the case or by --mass KG");
   if (given.flow.tunnel.kind != TunnelKind::free_air)
-    refuse("flow.tunnel.kind: nothing flies in a tunnel; leave out [flow.tunnel]");
+    refuse("flow.tunnel.kind: a flight needs free air; remove [flow.tunnel]");
   if (given.flow.angle_of_attack_deg != 0)
     refuse(
         "flow.angle_of_attack_deg: the direction of the stream follows from the flight; leave it out "
@@ -132,7 +132,7 @@ double usual_rate(const Settings& flight) {
 FlightProblem problem_at(const Settings& flight, double rate, int threads) {
   const FlowSettings& stream = flight.flow();
   if (stream.porosity_model != PorosityModel::sheet)
-    refuse("flow.porosity_model: only cloth that is a sheet flies; give the cloth an air permeability");
+    refuse("flow.porosity_model: a flight needs the \"sheet\" model; give the cloth an air permeability");
   if (stream.sides != Sides::far_field)
     refuse("flow.sides: in flight the air comes from any direction; leave it out or set it to \"far-field\"");
   const Cost cost = cost_of(flight);

@@ -50,7 +50,8 @@ void describe_pressure(Fields& fields, InflationSettings& inflation) {
                 {{"axial", InflationSettings::Basis::axial}, {"descent", InflationSettings::Basis::descent}},
                 "Motion in which drag_coefficient was found: \"axial\" in steady flow along the axis, "
                 "\"descent\" in free descent, as in handbooks and catalogues. `ripstop recovery` widens the "
-                "range of an axial coefficient by the ratios of both in computed flights.");
+                "range of an axial coefficient by the ratio of the descent coefficient to the axial one in "
+                "computed flights.");
   fields.number("ramp_s", inflation.ramp_s, from(0).up_to(1000),
                 "Time of the linear rise of the pressure; 0: immediate.");
 }
@@ -107,9 +108,10 @@ void describe_run(Fields& fields, InflationSettings& inflation) {
   fields.number("low_pass_hz", inflation.low_pass_hz, from(0).up_to(1e6),
                 "Cutoff frequency of a low-pass filter of the written history; the computation is not "
                 "filtered; 0: none.");
-  fields.numbers("sheet_s", inflation.sheet_s, 0, 12, from(0).up_to(1000),
-                 "Times of the shapes in the overview picture, at the next check of the time step; none: "
-                 "eight times up to 0.1 s or, with air = \"coupled\", to the end.");
+  fields.numbers(
+      "sheet_s", inflation.sheet_s, 0, 12, from(0).up_to(1000),
+      "Times of the shapes in the overview picture; each shape is taken at the next check of the time "
+      "step. Empty: eight times up to 0.1 s or, with air = \"coupled\", up to the end.");
   fields.integer("frames", inflation.frames, from(1).up_to(100000), "Number of shapes that are written.");
   fields.number("step_fraction", inflation.step_fraction, above(0).up_to(0.98),
                 "Time step over the stability limit.");
@@ -125,8 +127,8 @@ void describe_known(Fields& fields, InflationSettings& inflation) {
       .absent("no measured value");
   fields
       .number("printed_peak_n", inflation.printed_peak_n, above(0).up_to(1e7),
-              "Peak load of the model of the source.")
-      .absent("no value of the source");
+              "Peak load that the source of the measurement computed.")
+      .absent("no published value");
 }
 
 }  // namespace
@@ -140,10 +142,11 @@ void describe(Fields& fields, ReefingStage& stage) {
   fields
       .number(
           "cut_s", stage.cut_s, above(0).up_to(1000),
-          "Time from deployment at which the line is cut, at the next check of the time step (within 2 ms).")
+          "Time from deployment at which the line is cut. The cut takes effect at the next check of the time "
+          "step (within 2 ms).")
       .required();
   fields.name("material", stage.material, "Material of the reefing line, of kind \"line\".")
-      .absent("of the suspension lines");
+      .absent("that of the suspension lines");
 }
 
 void describe(Fields& fields, InflationSettings& inflation) {

@@ -107,9 +107,9 @@ LoadSource load_source(const Settings& opening) {
     return {fmt::format("coupled flow at {:g} m/s", opening.flow().speed_m_s), {}};
   if (inflation.pressure_pa.has_value() == inflation.drag_coefficient.has_value()) {
     throw Error(ExitCode::usage,
-                std::string(inflation.pressure_pa ? "the pressure is given twice: leave out one"
+                std::string(inflation.pressure_pa ? "the pressure is given twice: give only one"
                                                   : "the pressure is missing: give one") +
-                    " of inflation.pressure_pa, inflation.drag_coefficient, --pressure and --steady RUN, or "
+                    " of inflation.pressure_pa, inflation.drag_coefficient, --pressure or --steady RUN, or "
                     "compute the flow with inflation.air = \"coupled\"");
   }
   if (inflation.pressure_pa) return {fmt::format("given: {:g} Pa", *inflation.pressure_pa), {}};

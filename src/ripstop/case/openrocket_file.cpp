@@ -127,9 +127,9 @@ class OpenRocketReader {
     d.delay = number(part, "deploydelay", "s", 0, 1e5);
     const auto own = part.children("deploymentconfiguration");
     if (const auto configurations = std::distance(own.begin(), own.end()); configurations > 0)
-      file_.notes.push_back(
-          fmt::format("\"{}\": the deployment of {} flight configuration{}; the default is used",
-                      visible_line(d.name), configurations, configurations == 1 ? "" : "s"));
+      file_.notes.push_back(fmt::format(
+          "\"{}\": the deployment settings of {} flight configuration{}; the default ones are used",
+          visible_line(d.name), configurations, configurations == 1 ? "" : "s"));
     return d;
   }
 

@@ -88,7 +88,7 @@ class OpenRocketImporter {
       if (event == "altitude" && d_.altitude) event += fmt::format(" {:g} m above ground", *d_.altitude);
       if (d_.delay && *d_.delay > 0) event += fmt::format(", delay {:g} s", *d_.delay);
       text += "# Deployment: " + visible_line(event) + "\n";
-      mapped("deployment at {}: a comment, because a case has no trigger", visible_line(event));
+      mapped("deployment at {}: written as a comment, because a case has no trigger", visible_line(event));
     }
     return text + fmt::format("title = {}\n\n[parachute]\ntype = \"flat-circular\"\n",
                               toml_quoted(d_.name.empty() ? "imported" : d_.name, 100));
@@ -209,10 +209,11 @@ class OpenRocketImporter {
                       *d_.descent_mass, visible_line(d_.simulation)));
     if (!subtracted.empty())
       mapped(
-          "payload {:.4g} kg: the last mass of the simulation \"{}\", {:.4g} kg, without the parachutes ({})",
+          "payload {:.4g} kg: mass at the end of the simulation \"{}\", {:.4g} kg, without the parachutes "
+          "({})",
           payload, visible_line(d_.simulation), *d_.descent_mass, subtracted);
     else
-      mapped("payload {:.4g} kg: the last mass of the simulation \"{}\"", payload,
+      mapped("payload {:.4g} kg: mass at the end of the simulation \"{}\"", payload,
              visible_line(d_.simulation));
     if (!unknown.empty())
       result_.changed.push_back(

@@ -32,7 +32,7 @@ const std::vector<std::pair<std::string, std::string>>& quantity_keys() {
       {"speed of the free stream", "flow.speed_m_s"},
       {"the temperature of the air", "flow.temperature_k"},
       {"the size of the domain", "flow.box_m"},
-      {"the place of the body", "the place of the body (x_m, y_m and body.NAME.trailing_distance_m)"},
+      {"the position of the body", "the position of the body (x_m, y_m and body.NAME.trailing_distance_m)"},
       {"sides", "flow.sides"},
       {"outlet", "flow.outlet"},
       {"porosity model", "flow.porosity_model"},

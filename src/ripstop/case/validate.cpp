@@ -322,7 +322,7 @@ void check_watch(const Case& given, const FlowSettings& flow, Findings& findings
   if (findings.sound({"flow.watch"}) && watch.longest < 2 * watch.shortest)
     findings.add(
         "flow.watch.longest", watch.longest, fmt::format("at least {:g}", 2 * watch.shortest),
-        "the longest watch must be at least twice as long as the shortest mean (flow.watch.shortest)");
+        "the longest record must be at least twice the shortest averaging window (flow.watch.shortest)");
 }
 
 /// Coupled inflation steps a sheet and the built-in engine together.

@@ -25,7 +25,7 @@ const std::vector<ValidRange>& valid_ranges() {
        "drag of sharp edges and turbulent wakes is independent of it (assumed)"},
       {scaled_drag_model, "Mach number", "", 0, 0.3, 1, "the run is incompressible"},
       {permeability_model, "dynamic pressure", " Pa", 0, 2000, any,
-       "the fit to a measured curve lets 6 % too little through at 2 kPa, 18 % at 11 kPa"},
+       "the fit to a measured curve has 6 % too little air flow at 2 kPa and 18 % at 11 kPa"},
       // Drag of the calibrated coefficients falls by 8 to 14 % from cells of 0.04 m to smaller ones: the range is 2 %.
       {porous_cells_model, "cell width across the stream", " m", 0.0196, 0.0204, any,
        "calibrated on cells of 0.02 x 0.02 x 0.0267 m"},

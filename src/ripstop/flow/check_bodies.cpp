@@ -58,9 +58,9 @@ void check_inside(const FlowProblem& problem, const FlowBody& body) {
         ExitCode::usage,
         fmt::format(
             "flow: body \"{}\" extends from {} = {:.4g} to {:.4g} m, which must lie within {:.4g} to "
-            "{:.4g} m, the extent of the domain; change the place of the body or the size of the domain",
+            "{:.4g} m, the extent of the domain; change the position of the body or the size of the domain",
             body.name, "xyz"[axis], extent.low[axis], extent.high[axis], low[axis], high[axis]),
-        {"the place of the body", "the size of the domain"});
+        {"the position of the body", "the size of the domain"});
   }
 }
 
@@ -81,9 +81,9 @@ void check_bodies(const FlowProblem& problem) {
             ExitCode::usage,
             fmt::format(
                 "flow: the surfaces of the bodies \"{}\" and \"{}\" intersect; they must be apart: change, "
-                "for one of them, the place of the body",
+                "for one of them, the position of the body",
                 bodies[m].name, bodies[n].name),
-            {"the place of the body"});
+            {"the position of the body"});
     }
   }
 }

@@ -89,7 +89,7 @@ CanopyMesh flying_mesh(const FlightProblem& problem) {
   if (mesh.fixed.size() != 1)
     throw Error(ExitCode::usage,
                 fmt::format("a flight needs one confluence or one end of the riser, which is "
-                            "the payload; this parachute is held at {} nodes",
+                            "the payload; this parachute has {} fixed nodes",
                             mesh.fixed.size()));
   mesh.mass[mesh.fixed[0]] += problem.payload_mass;
   mesh.fixed.clear();
@@ -246,7 +246,7 @@ void FreeFlight::check_cells(const std::vector<Vec3>& x, double time) const {
         ExitCode::not_converged,
         fmt::format(
             "t = {:.4g} s: the canopy has left the fine cells of the flow, which follow it: a point of "
-            "it is at ({:.3g}, {:.3g}, {:.3g}) m from its mean place. It has turned over or collapsed, "
+            "it is at ({:.3g}, {:.3g}, {:.3g}) m from its mean position. It has turned over or collapsed, "
             "or the region of fine cells is too small",
             time, p.x - home_.x, p.y - home_.y, p.z - home_.z),
         {"region of fine cells"});

@@ -52,10 +52,11 @@ void describe(Fields& fields, Bench& bench) {
   fields.number("width_m", bench.width_m, above(0).up_to(1), "Width of a tape; required for a tape.");
   fields.integer("degree", bench.degree, from(0).up_to(8),
                  "Degree of the curves; 0: chosen by degree_rule, one for all orientations.");
-  fields.choice("degree_rule", bench.degree_rule,
-                {{"cross-validation", DegreeRule::cross_validation}, {"nfm", DegreeRule::nfm}},
-                "The lowest degree that predicts a sample from the others as well as any; or, of unweighted "
-                "points, the lowest with R2 above wanted_r2 in every orientation ([NFM]).");
+  fields.choice(
+      "degree_rule", bench.degree_rule,
+      {{"cross-validation", DegreeRule::cross_validation}, {"nfm", DegreeRule::nfm}},
+      "\"cross-validation\": lowest degree that predicts a sample from the others as well as any degree; "
+      "\"nfm\": lowest degree with R2 above wanted_r2 in every orientation, for unweighted points ([NFM]).");
   fields.number("wanted_r2", bench.wanted_r2, above(0).below(1), "R2 required by degree_rule = \"nfm\".");
   fields.number("working_strain", bench.working_strain, from(1e-3).up_to(4),
                 "Strain up to which all points have equal weight. Beyond it the weight is (working_strain / "

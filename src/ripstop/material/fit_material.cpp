@@ -217,7 +217,7 @@ std::string why_degree(const std::vector<MeanCurve>& curves, int degree, const F
         "degree {}: the lowest with R2 above {}{}", degree, options.wanted_r2,
         options.rule == DegreeRule::nfm ? "" : "; with one sample per direction no prediction can be tested");
   return fmt::format(
-      "degree {}: the lowest that predicts a sample from the others as well as any, within {:.2g} % "
+      "degree {}: the lowest that predicts a sample from the others as well as any degree, within {:.2g} % "
       "(weighted to strains up to {:.3g})",
       degree, 100 * std::sqrt(error), options.working_strain);
 }

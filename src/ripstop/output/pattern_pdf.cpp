@@ -37,7 +37,7 @@ Sheets sheets_for(const PieceBox& box, Paper paper, const std::string& piece) {
                rows = std::ceil((box.top - box.bottom) / s.window_height());
   if (!(columns * rows <= most_sheets))
     throw Error(ExitCode::usage,
-                fmt::format("{} needs {:.0f} x {:.0f} sheets of paper, and {:g} are the most: leave "
+                fmt::format("{} needs {:.0f} x {:.0f} sheets of paper, more than {:g}: leave "
                             "--paper out and print the SVG or DXF on a plotter",
                             piece, columns, rows, most_sheets));
   s.columns = std::max(1, static_cast<int>(columns)), s.rows = std::max(1, static_cast<int>(rows));

@@ -88,8 +88,9 @@ void describe(Fields& fields, LineSet& lines) {
   fields.name("material", lines.material, "Material of the lines, of kind \"line\".");
   fields
       .number("onto_disk_m", lines.onto_disk_m, from(0).up_to(100),
-              "Length of the lines on the canopy, from the skirt, or for a disk-gap-band from the edge of "
-              "the disk beyond band and gap (assumed: not given by the source).")
+              "Length of the lines that is sewn to the canopy, from the skirt; for a disk-gap-band, the part "
+              "on the "
+              "disk, without band and gap (assumed: the source does not give it).")
       .absent("to the edge of the vent (assumed)");
 }
 

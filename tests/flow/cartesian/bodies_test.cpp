@@ -189,7 +189,7 @@ TEST(Bodies, ThatLeaveTheBoxAreRefused) {
   const std::string said = refusal(problem);
   EXPECT_NE(said.find("\"main\" extends from x = 2.1 to 3.1 m"), std::string::npos) << said;
   EXPECT_NE(said.find("-3 to 3 m"), std::string::npos) << said;
-  EXPECT_NE(said.find("change the place of the body"), std::string::npos) << said;
+  EXPECT_NE(said.find("change the position of the body"), std::string::npos) << said;
   problem.bodies = {porous_disk("main", {2.4, 0, 0})};
   EXPECT_EQ(refusal(problem), "");
 }

@@ -347,9 +347,9 @@ TEST(Load, EveryMethodIsAskedInTheConditionsOfItsStage) {
     EXPECT_EQ(method(stage, "infinite mass").note,
               slowed ? "upper bound on a horizontal path: the speed decreases during filling"
                      : "the speed decreases little during filling");
-    EXPECT_EQ(
-        method(stage, "momentum-impulse").note.find("filling from zero drag area; speed after filling ") == 0,
-        last);
+    EXPECT_EQ(method(stage, "momentum-impulse")
+                      .note.find("assumes filling from zero drag area; the speed after filling is ") == 0,
+              last);
   }
   // The highest force of the whole flight, and of each stage its own.
   const auto highest =

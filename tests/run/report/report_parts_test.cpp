@@ -62,11 +62,10 @@ TEST_F(ReportParts, TheBillHasARowForEveryRowOfTheBill) {
   const Bill bill = run_pattern(resolved, {}, packed_by_hand).bill;
   const ReportTable table = bill_table(resolved);
   EXPECT_EQ(table.title, "Bill of materials");
-  EXPECT_EQ(
-      table.note.find(fmt::format(
-          "Cut dimensions with the default allowances, without thread: {:.4g} g, {:.3g} l packed by hand.",
-          1e3 * bill.mass, 1e3 * bill.packed_volume)),
-      0u)
+  EXPECT_EQ(table.note.find(fmt::format("Cut dimensions with the default allowances, without thread: {:.4g} "
+                                        "g, {:.3g} litres packed by hand.",
+                                        1e3 * bill.mass, 1e3 * bill.packed_volume)),
+            0u)
       << table.note;
   ASSERT_EQ(table.rows.size(), bill.rows.size());
   ASSERT_EQ(table.columns.size(), 8u);

@@ -100,7 +100,7 @@ TEST_F(ReportPlots, OfAnOpeningHaveItsLevelsAndRunOverTheTimeOfItsFrames) {
   const ReportPlot& load = plots[0];
   EXPECT_EQ(names_of(load),
             (std::vector<std::string>{"maximum in the interval", "load", "low-passed", "steady",
-                                      "infinite mass, C_x C_D S0 q", "peak, model of the source"}));
+                                      "infinite mass, C_x C_D S0 q", "peak, published model"}));
   EXPECT_EQ(load.series[0].y, (Numbers{21, 22}));
   EXPECT_EQ(load.series[1].y, (Numbers{11, 12}));
   EXPECT_EQ(load.series[2].y, (Numbers{11, 12}));
@@ -180,8 +180,7 @@ TEST_F(ReportPlots, OverSeveralRunsDragIsPlottedOverSpeedWithMeasurements) {
   given.flow.speed_basis = SpeedBasis::nominal;
   ReportPlot drag = comparison_plots(runs, resolve(given)).at(0);
   EXPECT_EQ(drag.id, "drag-speed");
-  EXPECT_EQ(names_of(drag),
-            (std::vector<std::string>{"computed", "measured", "nonlinear model of the source"}));
+  EXPECT_EQ(names_of(drag), (std::vector<std::string>{"computed", "measured", "published nonlinear model"}));
   EXPECT_EQ(drag.series[0].x, (Numbers{10, 20, 20}));
   EXPECT_EQ(drag.series[0].y, (Numbers{49, 190, 200}));
   EXPECT_FALSE(drag.series[0].line);  // two at one speed: no line through them

@@ -95,7 +95,7 @@ Document parse_toml(const std::string& text, const std::string& name) {
 std::string read_text_file(const std::filesystem::path& file) {
   std::error_code failure;
   if (std::filesystem::is_directory(file, failure))
-    throw Error(ExitCode::io, fmt::format("{}: is a folder, not a file", file.string()));
+    throw Error(ExitCode::io, fmt::format("{}: is a folder; give the path of a file", file.string()));
   if (std::filesystem::exists(file, failure) && !std::filesystem::is_regular_file(file, failure))
     throw Error(
         ExitCode::io,

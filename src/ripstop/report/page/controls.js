@@ -63,7 +63,7 @@ class Controls {
     const views = [["oblique", "Oblique"], ["side", "Side"], ["below", "Mouth"], ["above", "Vent"]];
     this.side.append(element("fieldset", {}, element("legend", {}, "View"), element("div", { class: "row" },
       views.map(([view, text]) => element("button", { type: "button", "data-view": view, onclick: () => this.viewer.look(view) }, text)))));
-    this.side.append(element("p", { class: "keys" }, "Drag turns, wheel zooms, click keeps the probe. Keys: ", element("kbd", {}, "← ↑ → ↓"), " turn, ",
+    this.side.append(element("p", { class: "keys" }, "Mouse: move with the button pressed to turn, wheel to zoom, click to keep the probe. Keys: ", element("kbd", {}, "← ↑ → ↓"), " turn, ",
       element("kbd", {}, "+ −"), " zoom, ", element("kbd", {}, "1–4"), " views, ", element("kbd", {}, "H"), " maximum value",
       this.moving() ? [", ", element("kbd", {}, "space"), " plays"] : ""));
   }

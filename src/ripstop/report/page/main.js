@@ -6,7 +6,7 @@ const Page = (() => {
   let shapes = null;  // the one ShapeSection, moved to the run that is shown
   const sections = [];
   const figures = [];
-  const kinds = { opening: "Opening", flight: "Flight", steady: "Steady run", fabric: "Cloth under a pressure", size: "Sizing", stability: "Stability",
+  const kinds = { opening: "Opening", flight: "Flight", steady: "Steady run", fabric: "Cloth under uniform pressure", size: "Sizing", stability: "Stability",
     recovery: "Recovery", "flight-log": "Flight log" };
 
   function headline(run) {
@@ -19,7 +19,7 @@ const Page = (() => {
 
   function warnings(run) {
     if (!run.warnings.length) return null;
-    return element("div", { class: "callout", role: "note", "data-part": "warnings" }, element("strong", {}, "Remarks on these values"),
+    return element("div", { class: "callout", role: "note", "data-part": "warnings" }, element("strong", {}, "Warnings about these values"),
       element("ul", {}, run.warnings.map((text) => element("li", { class: /exceeds its allowable load|must not be used/.test(text) ? "bad" : "" }, text))));
   }
 

@@ -41,7 +41,7 @@ std::string axial_warning(const Settings& resolved, double uncertainty, const Ex
   return fmt::format(
       "{}: the drag area of {:.4g} m2 is axial; in descent its range is {:.4g} to {:.4g} m2, C_D {:.3f} to "
       "{:.3f} on S0 ({}), as for ripstop recovery. The exported standard deviation of {:.2g} % does not "
-      "contain this range: repeat the analysis with both ends, or export a flight with --flight",
+      "contain this range: repeat the analysis with both ends of it, or export a flight with --flight",
       p.title, p.drag_area, range.low * p.nominal_area, range.high * p.nominal_area, range.low, range.high,
       range.from, 100 * p.drag_area_deviation / p.drag_area);
 }

@@ -70,10 +70,10 @@ DescentDrag descent_drag(const Settings& resolved, const DragCoefficient& drag) 
   if (found.empty()) which = "flights of this type with another cloth", found = ratios(same_type);
   if (found.empty()) which = "flights of other types", found = ratios([](const FlownDrag&) { return true; });
   const auto [least, most] = std::minmax_element(found.begin(), found.end());
-  const std::string times =
-      *least == *most ? fmt::format("{:.2f}", *least) : fmt::format("{:.2f} to {:.2f}", *least, *most);
+  const std::string times = *least == *most ? fmt::format("factor {:.2f}", *least)
+                                            : fmt::format("factors {:.2f} to {:.2f}", *least, *most);
   return {low * std::min(1.0, *least), high * std::max(1.0, *most),
-          fmt::format("{}, and times {} for the motion in descent ({})", own, times, which)};
+          fmt::format("{}, widened by the {} for the motion in descent ({})", own, times, which)};
 }
 
 }  // namespace ripstop::inline run

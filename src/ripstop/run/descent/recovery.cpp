@@ -79,7 +79,7 @@ void check_recovery(const RecoveryRequest& q, bool two_stages) {
   if (!(q.delay >= 0))
     throw Error(ExitCode::usage, fmt::format("a delay of {:g} s: must be 0 or above", q.delay));
   if (q.separation_speed) {
-    require_positive("speed at which sections part (m/s)", *q.separation_speed);
+    require_positive("speed at which sections separate (m/s)", *q.separation_speed);
     if (q.sections.size() < 2)
       throw Error(ExitCode::usage, "a separation needs the masses of the sections: give --section KG,KG");
   }
@@ -215,10 +215,9 @@ LoadUncertainty uncertainty_at(DragEnd end, const RecoveryCanopy& canopy) {
                        design_drag_coefficient(design, canopy.drag.value);
   DragCoefficient drag = canopy.drag;
   if (std::abs(ratio - 1) > drag.uncertainty + 1e-9) {
-    drag.from = fmt::format(
-        "range of C_D in descent; ripstop load --fastest takes {:.0f} %, of the coefficient without that "
-        "range",
-        100 * drag.uncertainty);
+    drag.from =
+        fmt::format("range of C_D in descent; ripstop load --fastest uses {:.0f} %, without that range",
+                    100 * drag.uncertainty);
     drag.uncertainty = std::abs(ratio - 1);
   }
   return load_uncertainty(drag);

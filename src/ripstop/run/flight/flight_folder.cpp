@@ -124,7 +124,7 @@ void FlightFolder::write_plots(const FlightHistory& history, const FlightResult&
   const auto draw = [&](const char* name, const Plot& plot) {
     for (const char* ending : {".png", ".svg"}) write_plot(folder_.own(std::string(name) + ending), plot);
   };
-  draw("path", {result.title, {"horizontal place of the payload [m]"}, {"height [m]"}, {x, y}});
+  draw("path", {result.title, {"horizontal position of the payload [m]"}, {"height [m]"}, {x, y}});
   draw("angle", {result.title, {"time [s]"}, {"angle [deg]"}, {angle, attack}});
   draw("descent", {result.title, {"time [s]"}, {"rate of descent [m/s]"}, {down}});
   draw("force", {result.title, {"time [s]"}, {"force of the lines on the payload [N]"}, {force}});

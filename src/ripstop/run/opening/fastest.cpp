@@ -150,17 +150,19 @@ std::string advice_of(const FastestResult& r, double filling_distance) {
   const SafeSpeed& design = r.design();
   if (design.unsafe_at && r.snatch && r.snatch->largest() > design.load)
     return fmt::format("no speed: the {} does not carry the snatch load", design.member);
-  if (design.unsafe_at) return "no speed: the weakest part fails even at the rate of descent";
+  if (design.unsafe_at)
+    return "no speed: the weakest member exceeds its allowable load even at the rate of descent";
   if (r.design_method == computed_method)
     return fmt::format(
-        "{}, the lower end for the computed opening. It is valid for the deployment of that run",
+        "{}, the lower end of the range for the computed opening. It is valid for the deployment of that run",
         printed(design.lowest));
   std::string text = fmt::format(
-      "{}, the lower end for infinite mass: the speed does not decrease during filling. "
-      "A reefing line that fails{} the stress of the cloth are excluded",
-      printed(design.lowest), r.snatch ? " and" : ", the snatch load and");
+      "{}, the lower end of the range for infinite mass, in which the speed does not decrease during "
+      "filling. Not included: failure of a reefing line{} and the stress of the cloth",
+      printed(design.lowest), r.snatch ? "" : ", the snatch load");
   if (r.snatch && r.snatch->largest() > (1 + r.load_uncertainty) * design.load)
-    text += fmt::format(". The snatch load of {} N is the larger one there", rounded(r.snatch->largest()));
+    text += fmt::format(". At this speed the snatch load of {} N is larger than the opening load",
+                        rounded(r.snatch->largest()));
   std::optional<double> low = fastest_deployment, high = 0.0;
   bool others = false;
   for (const SafeSpeed& s : r.methods) {

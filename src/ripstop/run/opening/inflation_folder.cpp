@@ -229,7 +229,7 @@ Plot load_plot(const std::vector<HistoryRow>& rows, const std::vector<double>& s
   level("steady", r.steady_load);
   level("infinite mass, C_x C_D S0 q", r.estimate.load);
   level("measured peak", settings.measured_peak_n);
-  level("peak, model of the source", settings.printed_peak_n);
+  level("peak, published model", settings.printed_peak_n);
   return plot;
 }
 

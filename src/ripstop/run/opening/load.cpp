@@ -124,11 +124,12 @@ std::string outside_of_methods(const OpeningConditions& c, const LoadRequest& re
 std::string caution_on_filling(const LoadRequest& request, double nominal_diameter) {
   if (!of_handbook(request)) return "";
   const std::string text = joined(outside_range(filling_model, {{"nominal diameter", nominal_diameter}}));
-  return text.empty() ? ""
-                      : text +
-                            "; a small canopy fills within 1 to 20 D0, depending on its deployment (set it "
-                            "with --filling-constant), and one that is thrown open approaches the "
-                            "infinite-mass load";
+  return text.empty()
+             ? ""
+             : text +
+                   "; a small canopy fills within 1 to 20 D0, depending on its deployment (set it "
+                   "with --filling-constant); the load of a canopy that opens almost at once approaches the "
+                   "infinite-mass load";
 }
 
 /// `r`: coefficients that are known already.
@@ -155,9 +156,9 @@ void add_methods(const OpeningConditions& c, const LoadResult& r, double integra
   stage.methods.push_back({"Ludtke", ludtke.load, ludtke.time, held.empty(), held});
   const MomentumImpulse impulse = momentum_impulse_load(c, integral);
   const std::string left =
-      fmt::format("speed after filling {:.0f} % of the initial speed", 100 * impulse.speed_ratio);
+      fmt::format("the speed after filling is {:.0f} % of the initial speed", 100 * impulse.speed_ratio);
   stage.methods.push_back({"momentum-impulse", impulse.load.load, 0, from_none && stage.outside.empty(),
-                           !from_none               ? "filling from zero drag area; " + left
+                           !from_none               ? "assumes filling from zero drag area; " + left
                            : !stage.outside.empty() ? stage.outside
                                                     : left});
 }
@@ -300,9 +301,8 @@ void choose_design_load(const Settings& resolved, const LoadRequest& request, Lo
     r.design_load = std::max(r.design_load, stage.methods.front().load);
   r.design_load_from = "infinite mass, C_x C_D S0 q", r.design_method = infinite_mass_method;
   if (r.design_drag_coefficient > r.drag_coefficient)
-    r.design_load_from +=
-        fmt::format(" with the C_D of {:.2f} in descent to which the C_x of the handbook belongs",
-                    r.design_drag_coefficient);
+    r.design_load_from += fmt::format(" with C_D {:.2f} in descent, for which the handbook gives C_x",
+                                      r.design_drag_coefficient);
   for (const StageLoads& stage : r.stages)
     for (const MethodLoad& m : stage.methods)
       if (m.applies && m.load > r.design_load)
@@ -360,7 +360,7 @@ DragCoefficient opening_drag_coefficient(const Settings& resolved, const LoadReq
   if (!request.steady.empty()) {
     const CarryingRun run = carrying_run(request.steady);
     return {run.drag_area / nominal_area(resolved.parachute()),
-            fmt::format("{} {}: {:.4g} m2", run.basis == "axial" ? "steady run" : "flight",
+            fmt::format("{} {}, drag area {:.4g} m2", run.basis == "axial" ? "steady run" : "flight",
                         request.steady.string(), run.drag_area),
             std::max(usual_drag_uncertainty, run.uncertainty), run.basis};
   }

@@ -129,10 +129,11 @@ ComputedFilling computed_filling(const fs::path& folder, const Settings& resolve
   };
   const ComputedFilling filling{number("filling_distance_diameters"), number("area_growth_exponent")};
   if (!(filling.constant > 0 && filling.exponent > 0))
-    throw Error(ExitCode::usage,
-                fmt::format("{}: has no filling distance: the canopy has not filled (increase "
-                            "inflation.duration_s), or its load is one pressure (inflation.air)",
-                            folder.string()));
+    throw Error(
+        ExitCode::usage,
+        fmt::format("{}: has no filling distance: the canopy has not filled (increase "
+                    "inflation.duration_s), or the inflation is one under uniform pressure (inflation.air)",
+                    folder.string()));
   return filling;
 }
 

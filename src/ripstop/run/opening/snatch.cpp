@@ -91,7 +91,8 @@ class Snatch {
 std::string two_snatch_loads(const SnatchResult& s) {
   return fmt::format(
       "two snatch loads: {} N at a speed difference of {} m/s ({}; {}), and {} N at {} m/s ([deployment] "
-      "of the case; {}). Lines, riser and hardware are for the larger one. Leave out the one that does not "
+      "of the case; {}). Lines, riser and hardware are designed for the larger one. Omit the one that does "
+      "not "
       "describe your deployment",
       rounded(s.load), rounded(s.speed_difference), s.from, s.model, rounded(*s.other_load),
       rounded(*s.other_speed_difference), deployment_model);

@@ -61,7 +61,7 @@ void each_member(T& s, Visit&& visit) {
 
 /// Models of a snatch load, in words.
 inline constexpr const char
-    *energy_model = "energy of two masses; the whole canopy is stopped at line stretch",
+    *energy_model = "energy of two masses; the whole canopy reaches the speed of the payload at line stretch",
     *deployment_model = "deployment in one dimension; the canopy leaves its container after line stretch";
 
 /// In words: both loads and their models. Only of a result with the other load.

@@ -103,16 +103,17 @@ std::vector<ReportPlot> plots_from(const Before& before, const std::vector<FreeF
     load.series.push_back(thinned({"inflation", before.load_time, before.load, true, false}));
   load.series.push_back(flown("flight", [](const FreeFlightRow& r) { return norm(r.line_force); }));
   ReportPlot angle = over_time("angle", "Oscillation", {"angle", "°"});
-  angle.series = {flown("from the vertical", [](const FreeFlightRow& r) { return r.angle; }),
-                  flown("of attack", [](const FreeFlightRow& r) { return r.attack; })};
+  angle.series = {flown("to the vertical", [](const FreeFlightRow& r) { return r.angle; }),
+                  flown("angle of attack", [](const FreeFlightRow& r) { return r.attack; })};
   ReportPlot speed = over_time("speed", "Speed of the payload", {"speed", "m/s"});
   if (!before.air.empty())
     speed.series.push_back(
         series_of("inflation, along the path", before.air, [](const AirRow& r) { return r.speed; }));
-  speed.series.push_back(flown("down", [](const FreeFlightRow& r) { return -r.velocity.z; }));
-  speed.series.push_back(flown(
-      "over the ground", [](const FreeFlightRow& r) { return std::hypot(r.velocity.x, r.velocity.y); }));
-  ReportPlot place = over_time("place", "Path of the payload", {"place", "m"});
+  speed.series.push_back(flown("rate of descent", [](const FreeFlightRow& r) { return -r.velocity.z; }));
+  speed.series.push_back(flown("horizontal, over the ground", [](const FreeFlightRow& r) {
+    return std::hypot(r.velocity.x, r.velocity.y);
+  }));
+  ReportPlot place = over_time("place", "Path of the payload", {"position", "m"});
   place.series = {flown("x", [](const FreeFlightRow& r) { return r.payload.x; }),
                   flown("y", [](const FreeFlightRow& r) { return r.payload.y; }),
                   flown("height", [](const FreeFlightRow& r) { return r.payload.z; })};

@@ -49,10 +49,11 @@ std::vector<ReportPlot> steady_plots(const fs::path& folder) {
            {{"drag_n", "drag"}, {"force_x_n", "side force along x"}, {"force_y_n", "side force along y"}});
   const CsvTable pressure = table_in(folder / "pressure.csv");
   add_plot(plots, pressure, "arc_m",
-           plot("pressure", "Pressure along a gore", {"along the cloth from the vent", "m"},
+           plot("pressure", "Pressure along a gore", {"distance along the cloth from the vent", "m"},
                 {"pressure coefficient", ""}),
            {{"cp_inside", "inside"}, {"cp_outside", "outside"}, {"cp_load", "cloth load"}});
-  add_plot(plots, pressure, "z_m", plot("profile", "Profile", {"along the stream", "m"}, {"radius", "m"}),
+  add_plot(plots, pressure, "z_m",
+           plot("profile", "Profile", {"distance along the stream", "m"}, {"radius", "m"}),
            {{"radius_m", "mean over the gores"}});
   return plots;
 }
@@ -100,7 +101,7 @@ void add_drag_over_speed(std::vector<ReportPlot>& plots, const std::vector<Repor
   made.series.push_back(computed);
   for (ReportSeries& series :
        std::vector{known_drag(resolved, "measured", &Measured::drag_n),
-                   known_drag(resolved, "nonlinear model of the source", &Measured::printed_nonlinear_n)})
+                   known_drag(resolved, "published nonlinear model", &Measured::printed_nonlinear_n)})
     if (!series.x.empty()) made.series.push_back(series);
   plots.push_back(made);
 }
@@ -160,7 +161,7 @@ std::vector<ReportPlot> opening_plots(const ReportRun& run, const CsvTable& hist
     for (const auto& [key, name] : {std::pair{"steady_load_n", "steady"},
                                     {"knacke_load_n", "infinite mass, C_x C_D S0 q"},
                                     {"measured_peak_n", "measured peak"},
-                                    {"printed_peak_n", "peak, model of the source"}}) {
+                                    {"printed_peak_n", "peak, published model"}}) {
       const double level = number_of(run, key);
       if (std::isfinite(level)) plots[0].series.push_back({name, {0, end}, {level, level}, true, true});
     }

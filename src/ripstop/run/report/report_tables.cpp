@@ -150,7 +150,7 @@ ReportTable bill_table(const Settings& resolved) {
   ReportTable table{"bill",
                     "Bill of materials",
                     fmt::format("Cut dimensions with the default allowances, without thread: {:.4g} g, "
-                                "{:.3g} l packed by hand. ripstop pattern writes the pieces to scale.",
+                                "{:.3g} litres packed by hand. ripstop pattern writes the pieces to scale.",
                                 1000 * pattern.bill.mass, 1000 * pattern.bill.packed_volume),
                     {{"part", ""},
                      {"material", ""},
@@ -173,7 +173,7 @@ ReportTable sources_table(const Settings& resolved, const std::filesystem::path&
   const Json run = parsed(run_json, read_file(run_json));
   const Json written = Json::parse(case_json(resolved));
   ReportTable table{
-      "sources", "Default values of the case", "", {{"key", ""}, {"value", ""}, {"from", ""}}, {}};
+      "sources", "Default values of the case", "", {{"key", ""}, {"value", ""}, {"source", ""}}, {}};
   for (const Json& source : run.value("sources", Json::array())) {
     const std::string key = source.value("key", "");
     const auto place = pointer_of(key);

@@ -87,7 +87,8 @@ void check_angles(const std::vector<double>& angles) {
       refuse(fmt::format("--angles: {:g} degrees; an angle of attack is from 0 to {:g} degrees", angles[i],
                          largest_angle));
     if (i > 0 && !(angles[i] > angles[i - 1]))
-      refuse(fmt::format("--angles: {:g} after {:g} degrees; angles must rise", angles[i], angles[i - 1]));
+      refuse(
+          fmt::format("--angles: {:g} after {:g} degrees; angles must increase", angles[i], angles[i - 1]));
   }
 }
 
@@ -235,7 +236,7 @@ void take_trims(StabilityResult& result) {
     if (!trim.certain)
       result.warnings.push_back(
           fmt::format("trim at {:.1f} degrees: C_m next to it differs from 0 by less than {:g} "
-                      "standard errors; a longer averaging window (flow.watch) decides",
+                      "standard errors; use a longer averaging window (flow.watch)",
                       trim.angle, significant));
   }
   for (const StabilityRow& row : result.rows)

@@ -184,7 +184,7 @@ void SteadyFolder::write_pressure(const SteadyRun& run, const SteadyState& state
   CsvTable table{{"arc_m", "radius_m", "z_m", "cp_inside", "cp_outside", "cp_load"}, {}};
   Plot plot;
   plot.title = result.title;
-  plot.x.label = "along the cloth from the vent [m]";
+  plot.x.label = "distance along the cloth from the vent [m]";
   plot.y.label = "pressure coefficient";
   for (const char* name : {"inside", "outside", "cloth load"}) plot.series.emplace_back().name = name;
   const Cluster* cluster = run.solver.cluster();
@@ -332,7 +332,7 @@ void require_same_parachute(const Settings& resolved, const std::string& where, 
         ExitCode::usage,
         fmt::format(
             "{}: is a run of a different parachute: parachute.{} is {} in that run and {} in this case",
-            where, key, had.value(key, nlohmann::json()).dump(), value.dump()));
+            where, key, had.contains(key) ? had.at(key).dump() : "absent", value.dump()));
   }
 }
 

@@ -87,8 +87,8 @@ std::vector<std::string> linear_law_warnings(const Fabric& cloth) {
   if (!(law.linear > 0) || law.quadratic > 0 || cfm(law) < open_cfm) return {};
   return {
       fmt::format("materials.{}: {:.3g} CFM/ft2 with a linear law (pressure_drop_quadratic_pa_s2_m2 = 0): "
-                  "open cloth lets through up to 2.6 times less at 1000 Pa; give both coefficients of a "
-                  "measured curve (materials/README.md)",
+                  "at 1000 Pa the measured air flow through open cloth is up to 2.6 times smaller; give both "
+                  "coefficients of a measured curve (materials/README.md)",
                   cloth.name, cfm(law))};
 }
 

@@ -71,7 +71,7 @@ std::vector<PlotSeries> known_drag(const Settings& resolved, const Quantity& qua
     if (!series.x.empty()) all.push_back(series);
   };
   add("measured", &Measured::drag_n);
-  add("nonlinear model of the source", &Measured::printed_nonlinear_n);
+  add("published nonlinear model", &Measured::printed_nonlinear_n);
   return all;
 }
 
