@@ -18,7 +18,7 @@ Case cluster_case(int canopies, double spread_angle_deg) {
   Case given = flat_circular_case(1, 500, 20);
   given.parachute.riser.length_m = 1;
   given.parachute.mesh.line_segment_m = 0.25;
-  given.cluster = ClusterKeys{canopies, spread_angle_deg, {}};
+  given.cluster = ClusterKeys{canopies, spread_angle_deg, false, {}};
   return given;
 }
 

@@ -63,6 +63,7 @@ void CoarseStart::give(SteadyState& to) const {
   to.pressure = state.pressure;
   to.residual_traction = state.residual_traction;
   to.speed = state.speed, to.speeds = state.speeds;
+  to.spread.angle = state.spread.angle;
 }
 
 std::unique_ptr<CoarseStart> coarse_start(const Settings& resolved, const SteadySolver& solver,
