@@ -38,7 +38,7 @@ class LeaningFlow : public FormulaFlow {
         area += twice, sum += norm(twice);
         middle += norm(twice) / 3 * (a + b + c);
       }
-      middle /= sum;
+      middle = middle / sum;
       // An open axisymmetric surface has its mean normal on its axis.
       Vec3 axis = area / norm(area);
       if (axis.z < 0) axis = -1 * axis;

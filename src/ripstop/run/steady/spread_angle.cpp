@@ -119,9 +119,10 @@ void Search::turn_to(double angle) {
   const std::vector<Vec3> shape = state_.shape;
   for (int k = 0; k < after.canopies(); ++k) after.put(k, before.own(k, shape), state_.shape);
   state_.converged = false;
-  state_.accelerator = {.update = state_.accelerator.update,
-                        .relaxation = now_.coupling().relaxation,
-                        .memory = state_.accelerator.memory};
+  Accelerator& accelerator = state_.accelerator;
+  accelerator.guesses.clear(), accelerator.residuals.clear();
+  accelerator.relaxation = now_.coupling().relaxation;
+  if (!state_.in_time) accelerator.update = now_.coupling().acceleration;
 }
 
 /// To the next angle, after the iterations at the present one.
