@@ -113,6 +113,8 @@ const std::map<std::string_view, Wording>& known() {  // NOLINT(readability-func
       {"load_remainder", {"residual traction of the transfer", ""}},
       {"axial_moment_n_m", {"moment about the axis", "N m"}},
       {"moment_n_m", {"moment about the centre of the aft end", "N m"}},
+      {"spreading_moment_n_m", {"moment that increases the spread angle", "N m"}},
+      {"spread_search", {"solutions of the search for the spread angle", ""}},
       {"section_gap", {"largest section imbalance", ""}},
       {"cloth_hold_pa_m", {"regularisation of the cloth", "Pa/m"}},
       {"cloth_held", {"regularisation forces over the load", ""}},
