@@ -30,6 +30,7 @@ Settings coarsened(const Settings& resolved) {
   const auto& [nx, ny, nz] = resolved.flow().cells;
   given.flow.cells = {2 * ((nx + 2) / 4), 2 * ((ny + 2) / 4), (nz + 1) / 2};
   given.flow.unsteady = false;
+  if (given.cluster) given.cluster->equilibrium = false;  // of a search, only the first angle
   given.coupling.coarse_start = false;
   given.coupling.max_iterations = most_iterations;
   given.coupling.drag_tolerance = coarse_drag_tolerance;
@@ -63,7 +64,6 @@ void CoarseStart::give(SteadyState& to) const {
   to.pressure = state.pressure;
   to.residual_traction = state.residual_traction;
   to.speed = state.speed, to.speeds = state.speeds;
-  to.spread.angle = state.spread.angle;
 }
 
 std::unique_ptr<CoarseStart> coarse_start(const Settings& resolved, const SteadySolver& solver,
