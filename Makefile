@@ -33,7 +33,7 @@ ARCH_CHECK := gtest benchmark python pybind11 python-numpy python-jsonschema
 
 export PATH := /usr/bin:$(PATH)
 
-.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-symmetry validate-openings validate-filling validate-flights validate-stability judge torture test-sizes test-studio test-tutorials test-drawings test-slurm test-hosts test-debian12 test-debian13 scaling docs reference report-libraries format format-check install-build install wheel tarball test-portable container package release clean
+.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-symmetry validate-openings validate-filling validate-flights validate-stability validate-clusters judge torture test-sizes test-studio test-tutorials test-drawings test-slurm test-hosts test-debian12 test-debian13 scaling docs reference report-libraries format format-check install-build install wheel tarball test-portable container package release clean
 
 help:  ## This list
 	@grep -hE '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -177,6 +177,9 @@ validate-flights: build  ## Free flights of eleven families, vents, cloths and g
 
 validate-stability: build  ## Static coefficients of three families over the angle of attack, into docs/tables: 10 minutes; resumable
 	@/usr/bin/python3 validation/flight/static.py --ripstop build/bin/ripstop
+
+validate-clusters: build  ## Force angle and cluster factor over spread angle and domain, into docs/tables: a quarter of an hour; resumable
+	@/usr/bin/python3 validation/clusters/clusters.py --ripstop build/bin/ripstop
 
 judge: check-deps build  ## Cross-validation of the built-in engine with OpenFOAM on fitted meshes, into docs/tables: an hour and more
 	@cmake --preset release > /dev/null

@@ -72,8 +72,10 @@ void print(const Settings& resolved, const CaseSummary& s, std::size_t warnings)
   row("springs",
       fmt::format("{}, the shortest {:.3g} mm ({})", s.springs, 1000 * s.smallest_spring, s.smallest_part));
   if (const auto& cluster = resolved.written().cluster)
-    row("cluster", fmt::format("{} canopies at {:g} deg to its axis; all values above are of one of them",
-                               cluster->canopies, cluster->spread_angle_deg));
+    row("cluster",
+        fmt::format("{} canopies at {:g} deg to its axis{}; all values above are of one of them",
+                    cluster->canopies, cluster->spread_angle_deg,
+                    cluster->equilibrium ? ", the first angle of the search for the equilibrium" : ""));
   row("stable step", fmt::format("{:.3g} s, limited by {}; the estimate of [NFM] is {:.3g} s",
                                  s.step.stable_step, s.step.part, s.step.printed_step));
   row("flow domain",

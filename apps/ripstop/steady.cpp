@@ -71,6 +71,9 @@ void print_cluster(const ClusterResult& cluster, double area) {
   print_row("", fmt::format("forces inclined {} by {:.2g} deg; riser loads differ by {:.2g} %",
                             cluster.force_angle_deg > 0 ? "outward" : "inward",
                             std::abs(cluster.force_angle_deg), 100 * cluster.difference));
+  if (cluster.search && in_equilibrium(cluster))
+    print_row("", fmt::format("equilibrium of the spread angle, found with {} steady solutions",
+                              cluster.search->size()));
   if (cluster.cluster_factor)
     print_row("cluster factor",
               fmt::format("{:.3f}, drag coefficient over that of one canopy", *cluster.cluster_factor));
@@ -210,7 +213,10 @@ int run(const SteadyArguments& options) {
     fmt::print(stderr, "{} contains the finished run; use --fresh to compute it again\n", folder.string());
     return status;
   }
-  if (!result.converged)
+  if (!result.converged && result.cluster && search_failed(*result.cluster))
+    fmt::print(stderr, "not converged: no equilibrium of the spread angle after {} steady solutions\n",
+               result.cluster->search->size());
+  else if (!result.converged)
     fmt::print(stderr,
                "not converged within {} coupling iterations: {}; repeat the command with a higher "
                "coupling.max_iterations to continue the run\n",

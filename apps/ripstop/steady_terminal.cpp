@@ -114,6 +114,12 @@ void SteadyTerminal::iterated(const SteadyRun&, const SteadyState& state, const 
   progress_.line(iteration_text(state.iterations.back()));
 }
 
+void SteadyTerminal::turned(const SteadyTurn& turn) {
+  progress_.line(fmt::format(
+      "spread angle {:.4g} deg: forces inclined {} by {:.2g} deg; next angle {:.4g} deg", turn.from.angle,
+      turn.from.force_angle > 0 ? "outward" : "inward", std::abs(turn.from.force_angle), turn.to));
+}
+
 double SteadyTerminal::elapsed() const {
   return std::chrono::duration<double>(Clock::now() - begin_).count();
 }

@@ -18,6 +18,7 @@ class SteadyTerminal : public SteadyObserver {
   void warned(const std::string& text) override;
   void progress(const SteadyProgress& p, const SteadyState& state) override;
   void iterated(const SteadyRun& run, const SteadyState& state, const FlowField& field) override;
+  void turned(const SteadyTurn& turn) override;
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -305,6 +305,10 @@ ClusterResult.force_angle_deg: mean angle between the force and the axis of a ca
 ClusterResult.gap_m: smallest distance between the cloth of two canopies
 ClusterResult.riser_load_difference: difference between the largest and smallest riser load over their mean
 ClusterResult.cluster_factor: drag coefficient over that of one canopy; None: not given
+ClusterResult.spread_search: solutions of the search for the equilibrium, the last one is the result; None: given angle
+SpreadTrial.spread_angle_deg: angle between the axes of the canopies and of the cluster
+SpreadTrial.force_angle_deg: mean angle between the force and the axis of a canopy, positive outward
+SpreadTrial.drag_n: drag of the cluster
 ClusterResult.canopies: loads on each canopy
 ClusterResult.margins_one_failed: margins of the remaining canopies when one fails
 HeldPayload.mass_kg: mass of the payload

@@ -180,6 +180,8 @@ void add_steady(py::module_& module) {
                     "Margin of safety of one part; `unit` is the unit of load and strength.");
   add_class<Margins>(module, "Margins", "Margins of safety of all parts.");
   add_class<ClusterCanopy>(module, "ClusterCanopy", "Loads on one canopy of a cluster.");
+  add_class<SpreadTrial>(module, "SpreadTrial",
+                         "One solution of the search for the spread angle of a cluster.");
   add_class<ClusterResult>(module, "ClusterResult", "Angles and loads of a cluster of canopies.");
   add_class<SteadyIteration>(module, "SteadyIteration", "Values of one coupling iteration.");
   add_flow(module);

@@ -1,7 +1,10 @@
 // [cluster]: the domain makes room for the canopies, and a case that cannot have them is refused.
 #include "ripstop/case/cluster.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 #include "../refusal.h"
 #include "../small_case.h"
@@ -18,7 +21,7 @@ Case cluster_case(int canopies, double spread_angle_deg) {
   Case given = flat_circular_case(1, 500, 20);
   given.parachute.riser.length_m = 1;
   given.parachute.mesh.line_segment_m = 0.25;
-  given.cluster = ClusterKeys{canopies, spread_angle_deg, {}};
+  given.cluster = ClusterKeys{canopies, spread_angle_deg, false, {}};
   return given;
 }
 
@@ -58,6 +61,30 @@ TEST(ClusterCase, AnInflatedCanopyIsWithinTheFineCells) {
       EXPECT_LT(p.z, start + core.z);
     }
   EXPECT_NEAR(problem.reference_area, 3 * nominal_area(resolved.parachute()), 1e-12);
+}
+
+TEST(ClusterCase, TheDomainOfASearchIsThatOfItsLargestAngle) {
+  Case given = cluster_case(2, 16);
+  given.cluster->equilibrium = true;
+  const SpreadRange range = spread_range(given);
+  EXPECT_NEAR(range.largest, 16 + spread_search, 1e-9);
+  EXPECT_GT(range.least, 16 - spread_search);
+  const Settings searched = resolve(checked(given)),
+                 widest = resolve(checked(cluster_case(2, 16 + spread_search)));
+  EXPECT_EQ(searched.flow().box_m, widest.flow().box_m);
+  EXPECT_EQ(searched.flow().core.size_m, widest.flow().core.size_m);
+  EXPECT_EQ(searched.flow().cells, widest.flow().cells);
+  // Another angle keeps the domain, and turns the canopies about the confluence.
+  const Settings turned = at_spread_angle(searched, 25);
+  EXPECT_EQ(turned.flow(), searched.flow());
+  EXPECT_NEAR(cluster_of(turned)->layout().spread, 25 * std::acos(-1.0) / 180, 1e-12);
+  // Not below the angle at which the canopies touch, nor above the largest one of the key.
+  const std::string touching = refusal_of([&] { checked(cluster_case(2, 5)); }, ExitCode::usage);
+  EXPECT_NE(touching.find(fmt::format("at least {:.1f}", std::ceil(10 * range.least) / 10)),
+            std::string::npos)
+      << touching;
+  given.cluster->spread_angle_deg = 55;
+  EXPECT_NEAR(spread_range(given).largest, 60, 1e-9);
 }
 
 TEST(ClusterCase, ImpossibleOnesAreRefusedWithTheirKey) {

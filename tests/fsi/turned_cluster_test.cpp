@@ -15,7 +15,7 @@ TEST(ClusterEquilibrium, KeepsTheAngleByARestraintThatBalancesTheLineLoad) {
   Case given = flat_circular_case(1, 500, 20);
   given.parachute.riser.length_m = 0.5;
   given.parachute.mesh.line_segment_m = 0.25;
-  given.cluster = ClusterKeys{2, 30, {}};
+  given.cluster = ClusterKeys{2, 30, false, {}};
   const Cluster cluster = cluster_of(resolve(checked(given))).value();
   const CanopyMesh mesh = cluster.mesh();
   const ClothPtr one = make_cloth(cluster.one()), all = make_cloth(mesh);

@@ -23,6 +23,12 @@ constexpr double widest_part = 0.25;
 // Inflated over the inflated diameter of the domain, which is a generous one: canopies closer than this do touch.
 constexpr double narrow = 0.9;
 
+/// Sine of the spread angle at which neighbouring canopies touch, about; above 1 where they do at every angle.
+double touching_sine(const Case& given) {
+  const double radius = 0.5 * inflated_diameter(given.parachute);
+  return narrow * radius / (cluster_arm(given) * std::sin(std::numbers::pi / given.cluster->canopies));
+}
+
 }  // namespace
 
 void describe(Fields& fields, ClusterKeys& keys) {
@@ -36,6 +42,11 @@ void describe(Fields& fields, ClusterKeys& keys) {
               "Angle between the axis of each canopy and the axis of the cluster. The result contains the "
               "moment that would change it.")
       .required();
+  fields.toggle(
+      "equilibrium", keys.equilibrium,
+      fmt::format("Search for the spread angle at which the force of each canopy points along its axis. "
+                  "The search starts at spread_angle_deg and tries angles up to {:g} degrees from it.",
+                  spread_search));
   fields
       .number("single_drag_coefficient", keys.single_drag_coefficient, above(0).up_to(5),
               "Drag coefficient of one canopy alone, from a run of the same case without this table. The "
@@ -47,6 +58,11 @@ ClusterLayout layout_of(const ClusterKeys& keys) {
   return {keys.canopies, degree * keys.spread_angle_deg};
 }
 
+ClusterLayout widest_layout(const ClusterKeys& keys) {
+  const double more = keys.equilibrium ? spread_search : 0;
+  return {keys.canopies, degree * std::min(widest_spread, keys.spread_angle_deg + more)};
+}
+
 int canopy_count(const Case& given) {
   return given.cluster ? given.cluster->canopies : 1;
 }
@@ -55,9 +71,16 @@ double cluster_arm(const Case& given) {
   return usual_trailing_distance(given.parachute) + widest_part * inflated_diameter(given.parachute);
 }
 
+SpreadRange spread_range(const Case& given) {
+  const double first = given.cluster->spread_angle_deg;
+  const double touching = std::asin(std::min(1.0, touching_sine(given))) / degree;
+  return {std::max(first - spread_search, std::min(first, touching)),
+          widest_layout(*given.cluster).spread / degree};
+}
+
 Vec3 core_for_cluster(const Case& given, double d) {
   if (!given.cluster) return {};
-  const ClusterLayout layout = layout_of(*given.cluster);
+  const ClusterLayout layout = widest_layout(*given.cluster);
   return cluster_arm(given) * layout.width() + Vec3{0, 0, d * std::sin(layout.spread)};
 }
 
@@ -76,7 +99,7 @@ void check_cluster(const Case& given, const FlowSettings& flow, Findings& findin
         "the speed at which drag equals weight is not computed for a cluster; remove the payload and give "
         "flow.speed_m_s");
   const double across = start_diameter(given.parachute);
-  const Vec3 room = cluster_arm(given) * layout_of(*given.cluster).width();
+  const Vec3 room = cluster_arm(given) * widest_layout(*given.cluster).width();
   const double needed[] = {room.x + across, room.y + across}, box[] = {flow.box_m.x, flow.box_m.y},
                core[] = {flow.core.size_m.x, flow.core.size_m.y};
   for (std::size_t i = 0; i < 2; ++i) {
@@ -91,7 +114,7 @@ void check_cluster(const Case& given, const FlowSettings& flow, Findings& findin
   }
   const int n = given.cluster->canopies;
   const double arm = cluster_arm(given), radius = 0.5 * inflated_diameter(given.parachute);
-  const double share = narrow * radius / (arm * std::sin(std::numbers::pi / n));
+  const double share = touching_sine(given);
   if (std::sin(layout_of(*given.cluster).spread) >= share) return;
   const bool possible = share < std::sin(degree * widest_spread);
   const double least = std::ceil(10 * std::asin(std::min(1.0, share)) / degree) / 10;

@@ -20,12 +20,25 @@ struct FlowSettings;
 /// [cluster] as given.
 struct ClusterKeys {
   int canopies = 0;
-  double spread_angle_deg = 0;                    // between the axes of a canopy and of the cluster
+  double spread_angle_deg =
+      0;  // between the axes of a canopy and of the cluster; with `equilibrium` the first one
+  bool equilibrium = false;                       // the run searches for the angle
   std::optional<double> single_drag_coefficient;  // of one canopy alone, for the cluster factor
 };
 void describe(Fields& fields, ClusterKeys& keys);
 
+/// The search for the equilibrium tries spread angles up to so far from the first one (assumed) [deg].
+inline constexpr double spread_search = 10;
+
 ClusterLayout layout_of(const ClusterKeys& keys);
+/// The layout of the largest spread angle that the run may have, for which the domain is made.
+ClusterLayout widest_layout(const ClusterKeys& keys);
+/// Spread angles among which the run of a case with a cluster searches for the equilibrium [deg].
+struct SpreadRange {
+  double least = 0, largest = 0;
+};
+/// From the angle at which the canopies touch, at most `spread_search` from the given one.
+SpreadRange spread_range(const Case& given);
 /// Number of canopies of the case: 1 without a cluster.
 int canopy_count(const Case& given);
 

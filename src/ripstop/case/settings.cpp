@@ -59,6 +59,12 @@ Settings in_full_domain(const Settings& resolved) {
   return resolve(changed);
 }
 
+Settings at_spread_angle(const Settings& resolved, double spread_angle_deg) {
+  Case changed = resolved.written();
+  changed.cluster->spread_angle_deg = spread_angle_deg;
+  return resolve(changed);
+}
+
 bool same_flow(const FlowSettings& a, const FlowSettings& b) {
   FlowSettings other = b;
   other.canopy_position_m = a.canopy_position_m;

@@ -123,6 +123,9 @@ Settings at_speed(const Settings& resolved, double speed_m_s);
 /// The same settings, with the whole domain where flow.symmetry is "auto": for flows that continue in time or at an angle.
 Settings in_full_domain(const Settings& resolved);
 
+/// The same settings at another spread angle of the cluster, in the same domain [deg].
+Settings at_spread_angle(const Settings& resolved, double spread_angle_deg);
+
 /// Length unit of the domain of the sheet model [m].
 double inflated_diameter(const Design& parachute);
 /// Cells of the flow. Throws Error(usage) for a core that does not fit, or that the cells do not suffice for.

@@ -21,8 +21,9 @@ void update_load(SteadyState& state, const ClothLoad& answer, double drag_change
                  const std::vector<double>& area, const CouplingSettings& settings) {
   Accelerator& accelerator = state.accelerator;
   if (settings.acceleration == Acceleration::anderson && !state.in_time) {
-    const bool jitters = static_cast<int>(state.iterations.size()) >= most_accelerated &&
-                         drag_change > state.iterations.back().drag_change;
+    const bool jitters =
+        static_cast<int>(state.iterations.size()) - state.spread.before >= most_accelerated &&
+        drag_change > state.iterations.back().drag_change;
     if (jitters || accelerator.update == Acceleration::none) accelerator.average(settings.relaxation);
   }
   // Means in time have the same expected load and differ by scatter. The first windows are those of a developing

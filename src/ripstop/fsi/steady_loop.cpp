@@ -39,7 +39,7 @@ void require_inside(const FlowGrid& grid, const Mesh& mesh, const std::vector<Ce
 void require_apart(const Cluster& cluster, const std::vector<Vec3>& shape) {
   const double gap = cluster.gap(shape);
   if (gap > 0) return;
-  throw QuantityError(
+  throw ClusterTouches(
       ExitCode::usage,
       fmt::format(
           "the canopies of the cluster touch: at the spread angle of {:.4g} deg their cloth crosses the "

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ripstop/cloth/cloth.h"
+#include "ripstop/core/quantity_error.h"
 #include "ripstop/flow/flow.h"
 #include "ripstop/flow/unsteady.h"
 #include "ripstop/fsi/convergence.h"
@@ -44,6 +45,12 @@ struct SteadyProgress {
 };
 using SteadyReport = std::function<void(const SteadyProgress&)>;
 
+/// Canopies of a cluster whose cloth crosses the plane midway between two of them.
+class ClusterTouches : public QuantityError {
+ public:
+  using QuantityError::QuantityError;
+};
+
 class SteadySolver {
  public:
   /// Starts the flow; the engine must outlive the solver. Throws Error(usage) when the start shape does not fit
@@ -53,7 +60,7 @@ class SteadySolver {
   /// Uniform pressure of 1 q on the start shape.
   SteadyState start() const;
   /// One iteration. Returns the flow about the new shape, which continues in the next one. Throws Error(not_converged)
-  /// when the cloth finds no equilibrium, Error(external) or Error(diverged) from the flow.
+  /// when the cloth finds no equilibrium, ClusterTouches, Error(external) or Error(diverged) from the flow.
   FlowField iterate(SteadyState& state, const SteadyReport& report = {});
   bool finished(const SteadyState& state) const;
 

@@ -40,6 +40,33 @@ void each_member(T& w, Visit&& visit) {
   visit("mass_defect", w.mass_defect);
 }
 
+/// A steady solution at one spread angle of a cluster.
+struct SpreadTrial {
+  double angle = 0;        // between the axes of the canopies and of the cluster [deg]
+  double force_angle = 0;  // between the force of a canopy and its axis, positive outward [deg]
+  double drag = 0;         // of all canopies [N]
+};
+template <Of<SpreadTrial> T, class Visit>
+void each_member(T& t, Visit&& visit) {
+  visit("spread_angle_deg", t.angle);
+  visit("force_angle_deg", t.force_angle);
+  visit("drag_n", t.drag);
+}
+/// Search for the spread angle of a cluster.
+struct SpreadSearch {
+  double angle = 0;                 // of this state [deg]; 0: that of the case
+  int before = 0;                   // iterations before the first one at this angle
+  std::vector<SpreadTrial> trials;  // at the earlier angles, in turn
+  double touching = 0;              // largest angle at which canopies touched [deg]; 0: none
+};
+template <Of<SpreadSearch> T, class Visit>
+void each_member(T& s, Visit&& visit) {
+  visit("angle_deg", s.angle);
+  visit("iterations_before", s.before);
+  visit("trials", s.trials);
+  visit("touching_deg", s.touching);
+}
+
 /// Everything on which the next iteration depends, except the memory of the flow engine. Part of a
 /// checkpoint.
 struct SteadyState {
@@ -56,8 +83,9 @@ struct SteadyState {
   std::vector<Vec3> canopy_forces,
       canopy_moments;  // of a cluster: on each canopy, about the confluence [N], [N m]
   bool converged = false;
-  double speed = 0;  // stream speed of this state, where a run searches for it; 0: that of the case [m/s]
-  int speeds = 0;    // tried so far
+  double speed = 0;     // stream speed of this state, where a run searches for it; 0: that of the case [m/s]
+  int speeds = 0;       // tried so far
+  SpreadSearch spread;  // of a cluster whose spread angle the run searches for
 };
 
 template <Of<SteadyState> T, class Visit>
@@ -85,6 +113,7 @@ void each_member(T& s, Visit&& visit) {
   visit("converged", s.converged);
   visit("speed", s.speed);
   visit("speeds", s.speeds);
+  visit("spread_search", s.spread);
 }
 
 }  // namespace ripstop::inline fsi

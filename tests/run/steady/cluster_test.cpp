@@ -19,7 +19,7 @@ Case two_canopies(double spread_angle_deg) {
   Case given = flat_circular_case(0.6, 500, 20);
   given.parachute.riser.length_m = 0.6;
   given.parachute.mesh.line_segment_m = 0.2;
-  given.cluster = ClusterKeys{2, spread_angle_deg, 0.7};
+  given.cluster = ClusterKeys{2, spread_angle_deg, false, 0.7};
   given.flow.box_m = Vec3{2.8, 1.8, 2.8};
   given.flow.cells = {40, 26, 32};
   given.flow.canopy_position_m = 1.2;

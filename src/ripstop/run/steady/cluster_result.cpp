@@ -18,7 +18,32 @@ constexpr double degree = std::numbers::pi / 180;
 constexpr double largest_force_angle = 2;    // [deg]
 constexpr double largest_difference = 0.05;  // between riser loads
 
+/// Of the load on canopy `k` about the confluence, about y of the canopy: from its axis z outward to x [N m].
+double spreading_moment(const Cluster& cluster, const SteadyState& state, int k) {
+  return cluster.frame(k).in(state.canopy_moments.at(static_cast<std::size_t>(k))).y;
+}
+
 }  // namespace
+
+bool in_equilibrium(const ClusterResult& cluster) {
+  return std::abs(cluster.force_angle_deg) <= equilibrium_tolerance;
+}
+
+bool search_failed(const ClusterResult& cluster) {
+  return cluster.search && cluster.search->size() >= most_spread_trials && !in_equilibrium(cluster);
+}
+
+double force_angle(const Cluster& cluster, const SteadyState& state) {
+  double mean = 0;
+  for (int k = 0; k < cluster.canopies(); ++k) {
+    const std::vector<Vec3> shape = cluster.own(k, state.shape);
+    const auto fixed = static_cast<std::size_t>(cluster.one().fixed.front());
+    const double arm = norm(skirt_centroid(cluster.one(), shape) - shape[fixed]);
+    const double force = norm(state.canopy_forces.at(static_cast<std::size_t>(k)));
+    mean += spreading_moment(cluster, state, k) / (force * arm) / degree / cluster.canopies();
+  }
+  return mean;
+}
 
 ClusterResult cluster_result(const SteadySolver& solver, const SteadyState& state,
                              const std::vector<double>& tensions, double drag_coefficient,
@@ -27,22 +52,20 @@ ClusterResult cluster_result(const SteadySolver& solver, const SteadyState& stat
   const CanopyMesh& one = cluster.one();
   ClusterResult result;
   result.spread_angle_deg = cluster.layout().spread / degree;
+  result.force_angle_deg = force_angle(cluster, state);
   result.gap = cluster.gap(state.shape);
   double least = std::numeric_limits<double>::infinity(), most = 0, sum = 0;
   for (int k = 0; k < cluster.canopies(); ++k) {
     const std::vector<Vec3> shape = cluster.own(k, state.shape);
     const Vec3 force = state.canopy_forces.at(static_cast<std::size_t>(k));
-    const Vec3 moment = cluster.frame(k).in(state.canopy_moments.at(static_cast<std::size_t>(k)));
     ClusterCanopy& canopy = result.canopies.emplace_back();
     canopy.azimuth_deg = cluster.layout().azimuth(k) / degree;
     canopy.drag = force.z;
     canopy.force = norm(force);
-    canopy.spreading_moment = moment.y;  // about y of the canopy: from its axis z outward to x
+    canopy.spreading_moment = spreading_moment(cluster, state, k);
     for (const LineTension& t : line_tensions(one, cluster.part(k, tensions)))
       canopy.max_line_tension = std::max(canopy.max_line_tension, t.largest_tension);
     canopy.projected_diameter = canopy_size(one, shape).projected_diameter;
-    const double arm = norm(skirt_centroid(one, shape) - shape[static_cast<std::size_t>(one.fixed.front())]);
-    result.force_angle_deg += canopy.spreading_moment / (canopy.force * arm) / degree / cluster.canopies();
     least = std::min(least, canopy.force), most = std::max(most, canopy.force), sum += canopy.force;
   }
   result.difference = (most - least) / (sum / cluster.canopies());

@@ -8,6 +8,9 @@
 
 namespace ripstop::inline run {
 
+/// Mean over the canopies of the angle between the force at the centre of the skirt and the axis of the canopy,
+/// positive outward [deg].
+double force_angle(const Cluster& cluster, const SteadyState& state);
 /// Of a solver with a cluster; `tensions` are those of all springs, `drag_coefficient` is on S0 of all canopies.
 ClusterResult cluster_result(const SteadySolver& solver, const SteadyState& state,
                              const std::vector<double>& tensions, double drag_coefficient,

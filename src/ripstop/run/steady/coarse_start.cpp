@@ -32,6 +32,7 @@ Settings coarsened(const Settings& resolved, bool quarter) {
   given.flow.cells = {2 * ((nx + 2) / 4), 2 * ((ny + 2) / 4), (nz + 1) / 2};
   given.flow.unsteady = false;
   given.flow.symmetry = quarter ? FlowSymmetry::quarter : FlowSymmetry::full;
+  if (given.cluster) given.cluster->equilibrium = false;  // of a search, only the first angle
   given.coupling.coarse_start = false;
   given.coupling.max_iterations = most_iterations;
   given.coupling.drag_tolerance = coarse_drag_tolerance;

@@ -23,20 +23,6 @@ void scale_pressures(SteadyState& state, double ratio) {
       for (double& value : values) value *= ratio;
 }
 
-/// The same run at another speed; the flow continues if the engine can scale it, else it starts anew.
-SteadyParts parts_at(SteadyParts old, const Settings& now, const SteadySettings& settings) {
-  if (!engine_of(now).can.other_air) {
-    old.solver.reset(), old.engine.reset();
-    return steady_parts(now, settings);
-  }
-  const TemporaryFolder saved("speed");
-  old.solver->flow().save(saved.path);
-  old.solver.reset(), old.engine.reset();
-  SteadyParts parts = steady_parts(now, settings);
-  parts.solver->flow().restore(saved.path);
-  return parts;
-}
-
 /// Part of the weight carried by the drag of the payload itself at the speed of the state [N].
 double own_drag(const Settings& resolved, double speed) {
   return 0.5 * resolved.flow().density_kg_m3 * speed * speed * resolved.payload().drag_area_m2;
@@ -65,7 +51,7 @@ SteadySolution run_with_payload(const Settings& resolved, SteadyObserver& observ
   };
   const auto take_speed = [&] {
     now = at_speed(now, state.speed);
-    parts = parts_at(std::move(parts), now, settings);
+    parts = parts_with(std::move(parts), now, settings, engine_of(now).can.other_air);
   };
   if (state.speed != now.flow().speed_m_s) take_speed();  // of a coarse start, or of a run that was killed
   if (start) parts.solver->flow().continue_from(start->flow.path);

@@ -150,6 +150,19 @@ SteadyParts steady_parts(const Settings& resolved, const SteadySettings& setting
   return parts;
 }
 
+SteadyParts parts_with(SteadyParts old, const Settings& now, const SteadySettings& settings, bool continues) {
+  if (!continues) {
+    old.solver.reset(), old.engine.reset();
+    return steady_parts(now, settings);
+  }
+  const TemporaryFolder saved("flow");
+  old.solver->flow().save(saved.path);
+  old.solver.reset(), old.engine.reset();
+  SteadyParts parts = steady_parts(now, settings);
+  parts.solver->flow().restore(saved.path);
+  return parts;
+}
+
 void require_steady_memory(const Settings& resolved) {
   const Cost cost = cost_of(resolved);
   require_memory(cost.memory,
@@ -165,6 +178,8 @@ SteadySolution run_steady(const Settings& resolved, SteadyObserver& observer,
                 "payload.mass_kg: the weight is that of the parachute of the case, which a mesh of your own "
                 "replaces; remove the payload and give flow.speed_m_s");
   if (resolved.payload().mass_kg) return run_with_payload(resolved, observer, settings, clock);
+  if (const auto& cluster = resolved.written().cluster; cluster && cluster->equilibrium)
+    return run_to_equilibrium(resolved, observer, settings, clock);
   const SteadyParts parts = steady_parts(resolved, settings);
   SteadySolver& solver = *parts.solver;
   const SteadyRun run{resolved, solver, parts.engine->name()};
@@ -199,6 +214,7 @@ bool start_from(const Settings& other, const SteadyState& end, const SteadyRun& 
   if (!same_mesh) return false;
   state.shape = end.shape;
   state.pressure = end.pressure;
+  state.spread.angle = end.spread.angle;
   const double shift = resolved.flow().canopy_position_m - other.flow().canopy_position_m;
   const double there =
       end.speed > 0 ? 0.5 * other.flow().density_kg_m3 * end.speed * end.speed : dynamic_pressure(other);

@@ -124,6 +124,8 @@ struct ClusterResult {
   double gap = 0;                        // smallest distance between two canopies, at least [m]
   double difference = 0;                 // of the largest and smallest riser load, relative to the mean
   std::optional<double> cluster_factor;  // C_D over that of one canopy, where the case gives that
+  /// Of a run that searches for the equilibrium: its steady solutions in turn, the last one is that of the result.
+  std::optional<std::vector<SpreadTrial>> search;
   std::vector<ClusterCanopy> canopies;
   Margins one_failed;  // of the canopies that remain when one fails and they carry the same load
 };
@@ -134,9 +136,18 @@ void each_member(T& c, Visit&& visit) {
   visit("gap_m", c.gap);
   visit("riser_load_difference", c.difference);
   visit("cluster_factor", c.cluster_factor);
+  visit("spread_search", c.search);
   visit("canopies", c.canopies);
   visit("margins_one_failed", c.one_failed);
 }
+/// Of a search: largest force angle in equilibrium [deg], and number of solutions (assumed).
+inline constexpr double equilibrium_tolerance = 0.2;
+inline constexpr std::size_t most_spread_trials = 8;
+/// The force of each canopy points along its axis.
+bool in_equilibrium(const ClusterResult& cluster);
+/// The search tried the allowed number of spread angles, and none of them is that of equilibrium.
+bool search_failed(const ClusterResult& cluster);
+
 /// Of the drag to the weight, relative; of the speed it is half. Half of the default tolerance on the change of drag: the
 /// coupling does not resolve less.
 inline constexpr double payload_tolerance = 2.5e-3;
@@ -222,6 +233,12 @@ struct SteadyRun {
   std::string engine;  // name and version
 };
 
+/// From one spread angle of a cluster to the next.
+struct SteadyTurn {
+  SpreadTrial from;
+  double to = 0;  // [deg]
+};
+
 /// Observer of a run; functions that are not overridden do nothing.
 class SteadyObserver {
  public:
@@ -235,6 +252,8 @@ class SteadyObserver {
   virtual void warned(const std::string&) {}
   virtual void progress(const SteadyProgress&, const SteadyState&) {}
   virtual void iterated(const SteadyRun&, const SteadyState&, const FlowField&) {}
+  /// The search for the spread angle of a cluster has a solution at one more angle, and continues at that of the state.
+  virtual void turned(const SteadyTurn&) {}
   virtual void ended(const SteadyRun&, const SteadyState&, const SteadyResult&) {}
 };
 

@@ -45,6 +45,7 @@ class SteadyFolder : public SteadyObserver {
     next_.progress(progress, state);
   }
   void iterated(const SteadyRun& run, const SteadyState& state, const FlowField& flow) override;
+  void turned(const SteadyTurn& turn) override { next_.turned(turn); }
   void ended(const SteadyRun& run, const SteadyState& state, const SteadyResult& result) override;
 
  private:

@@ -16,6 +16,9 @@ struct SteadyParts {
 };
 SteadyParts steady_parts(const Settings& resolved, const SteadySettings& settings);
 
+/// The same run with other settings, the flow of `old` where `continues`: else it starts anew.
+SteadyParts parts_with(SteadyParts old, const Settings& now, const SteadySettings& settings, bool continues);
+
 /// Of the state in which the run ended.
 SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state, const Settings& resolved);
 
@@ -37,5 +40,8 @@ class RunClock {
 /// run_steady() of a case with payload.mass_kg; `clock` was started with the run.
 SteadySolution run_with_payload(const Settings& resolved, SteadyObserver& observer,
                                 const SteadySettings& settings, RunClock clock);
+/// run_steady() of a cluster with cluster.equilibrium.
+SteadySolution run_to_equilibrium(const Settings& resolved, SteadyObserver& observer,
+                                  const SteadySettings& settings, RunClock clock);
 
 }  // namespace ripstop::inline run
