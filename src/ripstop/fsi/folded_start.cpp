@@ -7,6 +7,8 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include "ripstop/cloth/cloth.h"
 #include "ripstop/core/error.h"
@@ -90,6 +92,17 @@ void make_symmetric(const Mesh& mesh, int symmetry, std::vector<Vec3>& x) {
   }
 }
 
+// How well the cloth of a start fits: its largest strain, and the share of its edges that pierce other cloth.
+struct Fit {
+  double strain = 0, pierced = 0;
+
+  bool is_clean() const { return strain <= strain_allowed && pierced == 0; }
+  bool is_better_than(const Fit& other) const {
+    if (is_clean() != other.is_clean()) return is_clean();
+    return strain < other.strain && pierced <= other.pierced;
+  }
+};
+
 // The zigzag of gores without strain, except where fold lines prevent it.
 class GoreFolder {
  public:
@@ -105,14 +118,12 @@ class GoreFolder {
     if (mesh_.rigging.lines.empty())
       throw Error(ExitCode::bad_data, "a canopy without lines cannot be folded");
     check_folds(mesh_, folds_);
-    double share = share_for(folding_.initial_radius);
-    FoldedStart start = relaxed(share);
-    // The relaxation moves the outer folds a little.
-    for (int i = 0; i < most_corrections && off(start) > radius_tolerance; ++i) {
-      const double mean = 0.5 * (start.inner_radius + start.outer_radius);
-      wanted_ += folding_.initial_radius - mean;
-      share = share_for(wanted_);
-      start = relaxed(share);
+    FoldedStart start = of_radius(false);
+    // Cloth that resists compression may buckle on its way from the zigzag. A second relaxation then remains in the
+    // equilibrium of the buckled shape. Cloth that wrinkles from the beginning does not buckle there.
+    if (const Fit fit = fit_of(start); !fit.is_clean()) {
+      std::optional<FoldedStart> other = of_radius_that_wrinkles();
+      if (other && fit_of(*other).is_better_than(fit)) start = std::move(*other);
     }
     hang_up(start);
     return start;
@@ -122,8 +133,13 @@ class GoreFolder {
   double off(const FoldedStart& start) const {
     return std::abs(0.5 * (start.inner_radius + start.outer_radius) / folding_.initial_radius - 1);
   }
-  double share_for(double radius);
-  FoldedStart relaxed(double share) const;
+  FoldedStart of_radius(bool wrinkles) const;
+  /// Absent where the correction of its radius is impossible, or the relaxation diverges.
+  std::optional<FoldedStart> of_radius_that_wrinkles() const;
+  Fit fit_of(const FoldedStart& start) const;
+  double share_for(double radius) const;
+  /// With `wrinkles` of cloth that wrinkles, else of such cloth only where strain remains.
+  FoldedStart relaxed(double share, bool wrinkles) const;
   /// Returns the largest strain.
   double relax_rounds(FoldedStart& start, bool wrinkles) const;
   void hang_up(FoldedStart& start) const;
@@ -134,13 +150,11 @@ class GoreFolder {
   int folds_, symmetry_;
   std::vector<int> piece_;
   ThreadTeam& team_;
-  double wanted_ =
-      folding_.initial_radius;  // of the zigzag, so that the relaxed one has the asked radius [m]
 };
 
 // The share of the seams' radius that the inner folds keep, for a zigzag whose folds at the skirt have the
 // mean radius `radius`.
-double GoreFolder::share_for(double radius) {
+double GoreFolder::share_for(double radius) const {
   const auto mean = [&](double share) {
     try {
       const FoldedStart start = zigzag_of_gores(mesh_, folds_, share);
@@ -187,11 +201,36 @@ void GoreFolder::measure(FoldedStart& start) const {
   }
 }
 
-FoldedStart GoreFolder::relaxed(double share) const {
+FoldedStart GoreFolder::relaxed(double share, bool wrinkles) const {
   FoldedStart start = zigzag_of_gores(mesh_, folds_, share);
-  if (relax_rounds(start, false) > strain_allowed) relax_rounds(start, true);
+  if (wrinkles || relax_rounds(start, false) > strain_allowed) relax_rounds(start, true);
   measure(start);
   return start;
+}
+
+FoldedStart GoreFolder::of_radius(bool wrinkles) const {
+  FoldedStart start = relaxed(share_for(folding_.initial_radius), wrinkles);
+  // The relaxation moves the outer folds a little. The zigzag has another radius, so that the relaxed shape has the
+  // required one.
+  double wanted = folding_.initial_radius;
+  for (int i = 0; i < most_corrections && off(start) > radius_tolerance; ++i) {
+    wanted += folding_.initial_radius - 0.5 * (start.inner_radius + start.outer_radius);
+    start = relaxed(share_for(wanted), wrinkles);
+  }
+  return start;
+}
+
+std::optional<FoldedStart> GoreFolder::of_radius_that_wrinkles() const {
+  try {
+    return of_radius(true);
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+Fit GoreFolder::fit_of(const FoldedStart& start) const {
+  return {start_strain(canopy_of(mesh_, start, false), start.positions).largest,
+          pierced_share(mesh_, start.positions)};
 }
 
 double GoreFolder::relax_rounds(FoldedStart& start, bool wrinkles) const {
