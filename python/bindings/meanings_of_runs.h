@@ -308,6 +308,7 @@ ClusterResult.cluster_factor: drag coefficient over that of one canopy; None: no
 ClusterResult.spread_search: solutions of the search for the equilibrium, the last one is the result; None: given angle
 SpreadTrial.spread_angle_deg: angle between the axes of the canopies and of the cluster
 SpreadTrial.force_angle_deg: mean angle between the force and the axis of a canopy, positive outward
+SpreadTrial.force_angle_deviation_deg: standard deviation of that angle over the coupling iterations
 SpreadTrial.drag_n: drag of the cluster
 ClusterResult.canopies: loads on each canopy
 ClusterResult.margins_one_failed: margins of the remaining canopies when one fails

@@ -42,27 +42,32 @@ void each_member(T& w, Visit&& visit) {
 
 /// A steady solution at one spread angle of a cluster.
 struct SpreadTrial {
-  double angle = 0;        // between the axes of the canopies and of the cluster [deg]
-  double force_angle = 0;  // between the force of a canopy and its axis, positive outward [deg]
-  double drag = 0;         // of all canopies [N]
+  double angle = 0;  // between the axes of the canopies and of the cluster [deg]
+  double force_angle =
+      0;  // between the force of a canopy and its axis, positive outward: mean of iterations [deg]
+  double deviation = 0;  // standard deviation of that angle over these iterations [deg]
+  double drag = 0;       // of all canopies [N]
 };
 template <Of<SpreadTrial> T, class Visit>
 void each_member(T& t, Visit&& visit) {
   visit("spread_angle_deg", t.angle);
   visit("force_angle_deg", t.force_angle);
+  visit("force_angle_deviation_deg", t.deviation);
   visit("drag_n", t.drag);
 }
 /// Search for the spread angle of a cluster.
 struct SpreadSearch {
-  double angle = 0;                 // of this state [deg]; 0: that of the case
-  int before = 0;                   // iterations before the first one at this angle
-  std::vector<SpreadTrial> trials;  // at the earlier angles, in turn
-  double touching = 0;              // largest angle at which canopies touched [deg]; 0: none
+  double angle = 0;                  // of this state [deg]; 0: that of the case
+  int before = 0;                    // iterations before the first one at this angle
+  std::vector<double> force_angles;  // of the iterations at this angle [deg]
+  std::vector<SpreadTrial> trials;   // at the earlier angles, in turn
+  double touching = 0;               // largest angle at which canopies touched [deg]; 0: none
 };
 template <Of<SpreadSearch> T, class Visit>
 void each_member(T& s, Visit&& visit) {
   visit("angle_deg", s.angle);
   visit("iterations_before", s.before);
+  visit("force_angles_deg", s.force_angles);
   visit("trials", s.trials);
   visit("touching_deg", s.touching);
 }

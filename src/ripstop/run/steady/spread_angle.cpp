@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/words.h"
@@ -81,10 +82,7 @@ class Search {
     const int here = iterations_here();
     return here >= now_.coupling().max_iterations || (state_.converged && here >= fewest_iterations);
   }
-  SpreadTrial trial() const {
-    return {state_.spread.angle, force_angle(*parts_.solver->cluster(), state_),
-            state_.iterations.back().fluid_force};
-  }
+  SpreadTrial trial() const;
   void turn_to(double angle);
   void advance();
   void iterate(FlowField& flow);
@@ -97,6 +95,18 @@ class Search {
   SteadyParts parts_;
   SteadyState state_;
 };
+
+/// Without the first iteration, whose shape is that of another angle.
+SpreadTrial Search::trial() const {
+  const std::vector<double>& all = state_.spread.force_angles;
+  const auto from = all.begin() + (all.size() > 1 ? 1 : 0);
+  const auto count = static_cast<double>(all.end() - from);
+  const double mean = std::accumulate(from, all.end(), 0.0) / count;
+  double squares = 0;
+  for (auto angle = from; angle != all.end(); ++angle) squares += (*angle - mean) * (*angle - mean);
+  return {state_.spread.angle, mean, count > 1 ? std::sqrt(squares / (count - 1)) : 0,
+          state_.iterations.back().fluid_force};
+}
 
 void Search::begin(RunClock& clock) {
   state_ = parts_.solver->start();
@@ -114,6 +124,7 @@ void Search::turn_to(double angle) {
   const Cluster before = *parts_.solver->cluster();
   state_.spread.angle = angle;
   state_.spread.before = static_cast<int>(state_.iterations.size());
+  state_.spread.force_angles.clear();
   take_angle();
   const Cluster& after = *parts_.solver->cluster();
   const std::vector<Vec3> shape = state_.shape;
@@ -170,11 +181,13 @@ SteadySolution Search::solve(RunClock clock) {
       advance();
     }
     iterate(solution.flow);
+    state_.spread.force_angles.push_back(force_angle(*parts_.solver->cluster(), state_));
     observer_.iterated(run(), state_, solution.flow);
   }
   solution.result = steady_result(*parts_.solver, state_, now_);
   solution.result.cluster->search = state_.spread.trials;
   solution.result.cluster->search->push_back(trial());
+  solution.result.cluster->force_angle_deg = trial().force_angle;
   solution.result.wall_time = clock.elapsed();
   observer_.ended(run(), state_, solution.result);
   solution.state = std::move(state_);
