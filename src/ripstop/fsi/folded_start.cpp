@@ -134,6 +134,8 @@ class GoreFolder {
     return std::abs(0.5 * (start.inner_radius + start.outer_radius) / folding_.initial_radius - 1);
   }
   FoldedStart of_radius(bool wrinkles) const;
+  /// Mean radius of the folded skirt of the zigzag [m]; infinite where its strips do not reach that far.
+  double radius_of(double share) const;
   /// Absent where the correction of its radius is impossible, or the relaxation diverges.
   std::optional<FoldedStart> of_radius_that_wrinkles() const;
   Fit fit_of(const FoldedStart& start) const;
@@ -152,33 +154,33 @@ class GoreFolder {
   ThreadTeam& team_;
 };
 
+double GoreFolder::radius_of(double share) const {
+  try {
+    const FoldedStart start = zigzag_of_gores(mesh_, folds_, share);
+    return 0.5 * (start.inner_radius + start.outer_radius);
+  } catch (const Error&) {
+    return std::numeric_limits<double>::infinity();
+  }
+}
+
 // The share of the seams' radius that the inner folds keep, for a zigzag whose folds at the skirt have the
 // mean radius `radius`.
 double GoreFolder::share_for(double radius) const {
-  const auto mean = [&](double share) {
-    try {
-      const FoldedStart start = zigzag_of_gores(mesh_, folds_, share);
-      return 0.5 * (start.inner_radius + start.outer_radius);
-    } catch (const Error&) {
-      return std::numeric_limits<double>::infinity();  // the strips do not reach that far
-    }
-  };
   double low = least_inner_share, high = 1;
-  const double least = mean(low);
-  if (!(radius > least)) {
+  if (const double least = radius_of(low); !(radius > least)) {
     throw QuantityError(
         ExitCode::usage,
         fmt::format(
             "radius of the folded skirt = {:.4g}: with {} folds the skirt folds to no less than {:.4g} m; "
             "more folds allow smaller radii",
-            folding_.initial_radius, folds_, least),
+            radius, folds_, least),
         {"radius of the folded skirt"});
   }
   for (int i = 0; i < 40; ++i) {
     const double middle = 0.5 * (low + high);
-    (mean(middle) < radius ? low : high) = middle;
+    (radius_of(middle) < radius ? low : high) = middle;
   }
-  const double reached = mean(low);
+  const double reached = radius_of(low);
   if (std::abs(reached / radius - 1) > radius_tolerance) {
     throw QuantityError(
         ExitCode::usage,
@@ -211,10 +213,12 @@ FoldedStart GoreFolder::relaxed(double share, bool wrinkles) const {
 FoldedStart GoreFolder::of_radius(bool wrinkles) const {
   FoldedStart start = relaxed(share_for(folding_.initial_radius), wrinkles);
   // The relaxation moves the outer folds a little. The zigzag has another radius, so that the relaxed shape has the
-  // required one.
+  // required one, or comes as near to it as the folds allow.
   double wanted = folding_.initial_radius;
-  for (int i = 0; i < most_corrections && off(start) > radius_tolerance; ++i) {
-    wanted += folding_.initial_radius - 0.5 * (start.inner_radius + start.outer_radius);
+  const double least = (1 + radius_tolerance) * radius_of(least_inner_share);
+  for (int i = 0; i < most_corrections && off(start) > radius_tolerance && wanted > least; ++i) {
+    wanted =
+        std::max(wanted + folding_.initial_radius - 0.5 * (start.inner_radius + start.outer_radius), least);
     start = relaxed(share_for(wanted), wrinkles);
   }
   return start;
