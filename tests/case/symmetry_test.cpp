@@ -54,6 +54,12 @@ TEST(Symmetry, AutoSolvesTheFullDomainOnCoarseCellsAndInAnOpenJet) {
   EXPECT_EQ(full_because({jet, width}), "the stream is an open jet");
 }
 
+TEST(Symmetry, AutoSolvesTheFullDomainOfACross) {
+  const Settings cross =
+      resolve(read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/cross/case.toml", {}));
+  EXPECT_EQ(steady_problem(cross).full_box_because, "the cloth of a cross wrinkles without symmetry");
+}
+
 TEST(Symmetry, AnEngineWithoutPlanesOfSymmetrySolvesTheFullDomain) {
   EXPECT_EQ(full_because({{"flow.engine", "openfoam"},
                           {"flow.sides", "slip"},

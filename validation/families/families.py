@@ -49,9 +49,10 @@ PARTS = ["full", "auto"]  # likewise: flow.symmetry, under the load of the flow
 
 
 def examples():
-    """Families and the parachutes of the campaign."""
-    names = {case.parent.name: tomllib.loads(case.read_text())["parachute"].get("canopy_material") == CALIBRATED
-             for case in sorted((ROOT / "examples").glob("*/case.toml"))}
+    """Families and the parachutes of the campaign: one canopy without bodies."""
+    cases = {case.parent.name: tomllib.loads(case.read_text()) for case in sorted((ROOT / "examples").glob("*/case.toml"))}
+    names = {name: case["parachute"].get("canopy_material") == CALIBRATED
+             for name, case in cases.items() if "body" not in case and "cluster" not in case}
     return [name for name, of_campaign in names.items() if not of_campaign], [name for name, of_campaign in names.items() if of_campaign]
 
 

@@ -14,6 +14,7 @@
 #include "ripstop/flow/engines.h"
 #include "ripstop/flow/projections.h"
 #include "ripstop/flow/symmetry.h"
+#include "ripstop/parachute/cross.h"
 #include "ripstop/parachute/own_mesh.h"
 
 namespace ripstop::inline cases {
@@ -122,6 +123,9 @@ std::string why_full_box(const Settings& resolved, const CanopyMesh& mesh, const
       across < fewest_cells_across && flow.symmetry == FlowSymmetry::automatic)
     return fmt::format("there are {:.1f} flow cells across the canopy, fewer than {:g}", across,
                        fewest_cells_across);
+  // Wrinkles make the cloth asymmetric: docs/tables/symmetry.md.
+  if (resolved.parachute().canopy.as<Cross>() && !own_mesh && flow.symmetry == FlowSymmetry::automatic)
+    return "the cloth of a cross wrinkles without symmetry";
   if (mirror_images(mesh)) return {};
   if (const int gores = resolved.parachute().gores; gores % 2 != 0 && !own_mesh)
     return fmt::format("the number of gores is odd ({})", gores);

@@ -22,7 +22,6 @@ namespace {
 constexpr double bag_share = 0.1, wrap_share = 0.03, pilot_share = 0.05;  // of the parachute's mass
 constexpr double pilot_area = 0.015;                                      // of S0
 constexpr double longest_packed_share = 0.9;                              // of the canopy's length
-constexpr double closed_mouth = 0.04;                                     // radius over D0
 constexpr double above_smallest_radius = 1.12;                            // of the folded skirt
 
 double canopy_length(const Design& design) {
@@ -95,7 +94,8 @@ double smallest_radius(const Design& design, int folds) {
 }  // namespace
 
 void close_mouth(const Design& design, InflationSettings& inflation) {
-  const double wanted = closed_mouth * nominal_diameter(design), round = skirt_circumference(design);
+  const double wanted = experience(design).closed_mouth * nominal_diameter(design),
+               round = skirt_circumference(design);
   const int lines = design.lines.count;
   if (inflation.folds == 0 && !inflation.initial_radius_m && !design.canopy.as<Cross>()) {
     // Half the width of a strip.

@@ -10,7 +10,9 @@ void describe_start(Fields& fields, InflationSettings& inflation) {
   fields
       .number("initial_radius_m", inflation.initial_radius_m, above(0).up_to(1000),
               "Radius of the folded skirt, midway between its inner and outer folds.")
-      .absent("a closed mouth: 4 % of the nominal diameter, or more where the folds need it");
+      .absent(
+          "a closed mouth: 4 to 10 % of the nominal diameter by type of canopy, or more where the folds need "
+          "it");
   fields.integer(
       "folds", inflation.folds, from(0).up_to(1000),
       "Number of outer folds around the canopy, equal to the number of inner folds; 0: one per line.");

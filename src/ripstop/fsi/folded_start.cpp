@@ -33,7 +33,6 @@ constexpr int steps_a_round = 2500, most_rounds = 24;
 constexpr int rounds_between_looks = 4;
 constexpr double gain_wanted = 0.9;
 constexpr double radius_tolerance = 0.01;
-constexpr int most_corrections = 1;
 constexpr double largest_start_strain = 0.1;  // a result has its own, smaller limit
 
 std::vector<int> pieces_of_cloth(const Mesh& mesh) {
@@ -213,13 +212,12 @@ FoldedStart GoreFolder::relaxed(double share, bool wrinkles) const {
 FoldedStart GoreFolder::of_radius(bool wrinkles) const {
   FoldedStart start = relaxed(share_for(folding_.initial_radius), wrinkles);
   // The relaxation moves the outer folds a little. The zigzag has another radius, so that the relaxed shape has the
-  // required one, or comes as near to it as the folds allow.
-  double wanted = folding_.initial_radius;
+  // required one, or comes as near to it as the folds allow without strain.
   const double least = (1 + radius_tolerance) * radius_of(least_inner_share);
-  for (int i = 0; i < most_corrections && off(start) > radius_tolerance && wanted > least; ++i) {
-    wanted =
-        std::max(wanted + folding_.initial_radius - 0.5 * (start.inner_radius + start.outer_radius), least);
-    start = relaxed(share_for(wanted), wrinkles);
+  const double moved = 0.5 * (start.inner_radius + start.outer_radius) - folding_.initial_radius;
+  if (off(start) > radius_tolerance && folding_.initial_radius > least) {
+    FoldedStart corrected = relaxed(share_for(std::max(folding_.initial_radius - moved, least)), wrinkles);
+    if (fit_of(corrected).is_clean() || !fit_of(start).is_clean()) start = std::move(corrected);
   }
   return start;
 }

@@ -92,7 +92,8 @@ Experience experience(const Annular&) {
           .drag_coefficient = {0.85, 0.95},
           .opening_coefficient = 1.4,
           .opening_source = knacke_transcribed,
-          .cloth_nodes = 1500};
+          .cloth_nodes = 1500,
+          .closed_mouth = 0.1};
 }
 
 constinit const CanopyFamily Annular::family = family_of<Annular>("annular", "annular");

@@ -30,6 +30,9 @@ struct Experience {
   /// (docs/guide/canopies.md, How fine a mesh). The error depends on the spacing over the size of the canopy, so the
   /// number is valid for other sizes.
   int cloth_nodes = 0;
+  /// Radius of the folded skirt over the nominal diameter where a closed mouth is requested without a radius: one at
+  /// which the example folds with a strain below 1e-3 and without pierced edges (tests/fsi/folded_start_test.cpp).
+  double closed_mouth = 0.04;
 };
 
 /// C_x and the ranges of the drag coefficient agree with crates/hpr-sim/src/recovery.rs of github.com/nrdptel/hpr-sim,
@@ -40,14 +43,15 @@ inline constexpr const char* knacke_transcribed =
     "Knacke, NWC TP 6575, Tables 5-1 and 5-2, infinite mass; value agrees with a public transcription, not "
     "verified in print";
 
-/// Of a shape that the tables do not have, with its required nodes.
-constexpr Experience untabulated(int cloth_nodes) {
+/// Of a shape that the tables do not have, with its required nodes and closed mouth.
+constexpr Experience untabulated(int cloth_nodes, double closed_mouth) {
   return {
       .projected_ratio = {},
       .drag_coefficient = {},
       .opening_coefficient = 1.8,
       .opening_source = "not in Knacke's tables: the largest value of the solid canopies, on the safe side",
-      .cloth_nodes = cloth_nodes};
+      .cloth_nodes = cloth_nodes,
+      .closed_mouth = closed_mouth};
 }
 
 }  // namespace ripstop::inline parachute

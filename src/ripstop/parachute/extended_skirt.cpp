@@ -56,7 +56,8 @@ Experience experience(const ExtendedSkirt&) {
           .drag_coefficient = {0.78, 0.87},
           .opening_coefficient = 1.4,
           .opening_source = knacke_transcribed,
-          .cloth_nodes = 1500};
+          .cloth_nodes = 1500,
+          .closed_mouth = 0.1};
 }
 
 constinit const CanopyFamily ExtendedSkirt::family =

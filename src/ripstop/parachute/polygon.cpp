@@ -88,7 +88,7 @@ CanopyMesh build_canopy(const Polygon& canopy, const Design& design, const PartM
 }
 
 Experience experience(const Polygon&) {
-  return untabulated(1500);
+  return untabulated(1500, 0.1);
 }
 
 constinit const CanopyFamily Polygon::family = family_of<Polygon>("polygon", "hexagon");

@@ -204,7 +204,7 @@ CanopyMesh build_canopy(const ProfileCanopy& canopy, const Design& design, const
 
 Experience experience(const ProfileCanopy&) {
   // The number of nodes is that of half an ellipsoid; flatter ones need more.
-  return untabulated(1500);
+  return untabulated(1500, 0.1);
 }
 
 constinit const CanopyFamily ProfileCanopy::family = family_of<ProfileCanopy>("profile", "elliptical");

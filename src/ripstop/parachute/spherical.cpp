@@ -43,7 +43,8 @@ Experience experience(const Spherical& canopy) {
                    .drag_coefficient = {},
                    .opening_coefficient = 1.6,
                    .opening_source = knacke_transcribed,
-                   .cloth_nodes = 1500};
+                   .cloth_nodes = 1500,
+                   .closed_mouth = 0.1};
   if (canopy.half_angle_deg == 90) {  // the tables have no flatter caps
     known.projected_ratio = {0.66, 0.66};
     known.drag_coefficient = {0.62, 0.77};

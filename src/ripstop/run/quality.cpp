@@ -44,6 +44,8 @@ const std::vector<QualityLimit>& quality_limits() {
        "lower flow.residual or raise flow.max_iterations"},
       {"drag_left", "estimated change of drag that the last flow has left", 0.01, never, false, 100, " %",
        "raise flow.max_iterations, or compute the flow in time (flow.unsteady)"},
+      {"canopy_asymmetry", "deviation of the canopy from its mirror image", 0.005, never, false, 100,
+       " % of its projected diameter", "compare with the full flow domain (flow.symmetry = \"full\")"},
       {"cells_across", "number of flow cells across the inflated canopy", 10, 4, true, 1, "",
        "use more cells (flow.cells) or a smaller domain (flow.box_m)"},
   };

@@ -38,8 +38,10 @@ void take_quality(SteadyResult& r, const Settings& resolved, bool own_mesh) {
       {"ledger_gap", std::max(gap(r.ledger.nodal_load), gap(r.ledger.line_tension))},
       {"momentum_deficit_gap", gap(r.ledger.momentum_deficit)}};
   if (r.unsteady) values.push_back({"mass_defect", r.unsteady->watched.mass_defect});
+  if (std::isfinite(r.last.drag_left)) values.push_back({"drag_left", r.last.drag_left});
+  if (r.domain && r.domain->asymmetry)
+    values.push_back({"canopy_asymmetry", *r.domain->asymmetry / r.size.projected_diameter});
   Judgement judgement = judge(values);
-  if (std::isfinite(r.last.drag_left)) judgement.add(judge({{"drag_left", r.last.drag_left}}).warnings);
   if (r.cluster) judgement.add(cluster_warnings(*r.cluster));
   judgement.add(margin_warnings(r.margins));
   judgement.add(warnings_of(resolved, r.stress.strain, own_mesh));
