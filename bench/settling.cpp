@@ -1,4 +1,4 @@
-// The flow about the final shape of a steady run, from the start, in the full box and in a quarter of it: drag, momentum
+// The flow about the final shape of a steady run, from the start, in the full domain and in a quarter of it: drag, momentum
 // deficit and the change of drag that is left, over the iterations.
 //
 // bench_settling RUN [ITERATIONS [EVERY]]
@@ -24,7 +24,7 @@
 namespace ripstop {
 namespace {
 
-/// One flow, and what its iterations have cost so far.
+/// One flow, and the processor time of its iterations so far.
 class Settling {
  public:
   Settling(const Settings& settings, FlowProblem problem, bool quarter) {
@@ -83,7 +83,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   std::vector<std::string> columns = {"iterations"};
-  for (const char* part : {"full box", "quarter"})
+  for (const char* part : {"full domain", "quarter"})
     for (const char* value : {"drag N", "momentum deficit over drag, %", "change of drag left, %", "core s"})
       columns.push_back(fmt::format("{}: {}", part, value));
   print_table_head("Settling of the flow about a canopy", argc, argv, columns);

@@ -64,6 +64,11 @@ Imported from_chute(const ImportArguments& options) {
 
 int run(const ImportArguments& options) {
   const fs::path out = options.out.empty() ? fs::path(options.file.stem().string() + ".toml") : options.out;
+  if (fs::exists(out) && fs::equivalent(out, options.file))
+    throw Error(
+        ExitCode::usage,
+        fmt::format("{}: is the file to be imported, and its case would replace it; choose another --out",
+                    out.string()));
   if (fs::exists(out) && !options.force)
     throw Error(ExitCode::usage,
                 fmt::format("{} exists; choose another --out, or replace it with --force", out.string()));

@@ -236,7 +236,8 @@ void add_load(CLI::App& app, int& status) {
       "0.1:2\n"
       "         ripstop load examples/flat-circular/case.toml --mass 2.4 --fastest");
   command->add_option("case", options->case_file, "Case file (TOML)")->required();
-  add_number(*command, "--mass", options->mass, key_range("payload.mass_kg"), "Mass of the payload [kg]")
+  add_number(*command, "--mass", options->mass, key_range("payload.mass_kg"),
+             "Mass of the payload without the parachute [kg]")
       ->default_str("payload.mass_kg of the case");
   CLI::Option* speed =
       add_number(*command, "--speed", options->speed, above(0).up_to(1000), "Airspeed at line stretch [m/s]");

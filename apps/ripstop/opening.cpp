@@ -38,11 +38,10 @@ Settings opening_settings(const OpeningOptions& options) {
   }
   if (!given.inflation.initial_radius_m) {
     close_mouth(given.parachute, given.inflation);
-    const int folds = given.inflation.folds > 0 ? given.inflation.folds : given.parachute.lines.count;
     fmt::print(stderr,
                "ripstop: inflation.initial_radius_m is not given; the mouth is closed: radius of the folded "
-               "skirt {:.4g} m, {} folds\n",
-               *given.inflation.initial_radius_m, folds);
+               "skirt {:.4g} m\n",
+               *given.inflation.initial_radius_m);
   }
   return resolve(opening_case(given));
 }

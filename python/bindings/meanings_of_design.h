@@ -58,7 +58,7 @@ SnatchChange.half_length_n: snatch load with half the length; None: a part break
 SnatchChange.double_length_n: snatch load with twice the length; None: a part breaks
 SnatchChange.half_stiffness_n: snatch load with half the stiffness; None: a part breaks
 SnatchChange.double_stiffness_n: snatch load with twice the stiffness; None: a part breaks
-Margin.member: member: cloth, tape, a line, riser or a part of the hardware
+Margin.member: member: cloth, tape, hem, a line, riser or a part of the hardware
 Margin.load: largest load of the member, without the safety factor
 Margin.load_from: kind of the load of hardware in an opening; None: other members and results
 Margin.unit: unit of load and strength: N/m for cloth, else N
@@ -123,7 +123,7 @@ RecoveryStage.load_uncertainty: relative uncertainty of the load at one airspeed
 RecoveryStage.snatch_load_n: snatch load by [deployment] of its case, at the highest airspeed; None: without [deployment]
 RecoveryStage.separation_load_n: load on the hardware with length_m and stiffness_n when two sections part; None: no separation speed, or no such hardware
 RecoveryStage.margins: margins of safety under highest_design_load_n; for lines, riser and hardware under the snatch load if it is larger; for hardware under the separation load if it is larger
-RecoveryStage.required_hardware: strength that each part of the hardware needs under the largest of these three loads
+RecoveryStage.required_hardware: strength that each part of the hardware needs under the largest of highest_design_load_n, snatch_load_n and separation_load_n
 RecoveryStage.fastest_safe_deployment: fastest safe deployment by the method of the design load
 RecoveryStage.descent_rate_m_s: rate of descent at the end of the stage
 RecoveryStage.duration_s: duration of the stage

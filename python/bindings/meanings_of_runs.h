@@ -40,7 +40,7 @@ low_pass_hz: cutoff frequency of the low-pass filter
 reference_area_m2: reference area S0
 density_kg_m3: density of the air
 air_from: source of the density of the air; None: result of an earlier version
-path_angle_deg: angle of the path below the horizon at line stretch, or at the start of the stage
+path_angle_deg: angle of the path below the horizon at line stretch; of a stage, at its start
 run: folder of the run; empty: in memory
 method: name of the method
 note: reason why the method does not apply, or its assumptions
@@ -58,7 +58,7 @@ geometric_porosity: open area over the whole surface as constructed
 flow_cells: number of cells of the flow
 flow_steps: number of steps of the flow
 cloth_steps: number of steps of the cloth
-filling_constant: filling distance n over the nominal diameter
+filling_constant: filling constant n: distance travelled during filling over the nominal diameter
 start_up_s: start-up time, which the means exclude
 line_load_factor: largest load of a line over an equal share of the load
 weakest_member: member with the smallest margin of safety
@@ -191,7 +191,7 @@ Flight.axial_speed_m_s: speed at which the drag on the axis equals the weight; N
 Flight.axial_drag_coefficient: drag coefficient on S0 in steady flow on the axis; None: after an inflation
 Flight.density_kg_m3: density of the air at the start
 Flight.largest_line_force_n: largest force of the lines on the payload
-Flight.load_factor: this force over the weight of the payload
+Flight.load_factor: largest_line_force_n over the weight of the payload
 Flight.distance_m: horizontal distance over the ground
 Flight.energy_residual: residual of the energy balance, over the potential energy lost
 Flight.momentum_residual: residual of the momentum balance, over the impulse of the weight

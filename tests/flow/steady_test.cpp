@@ -76,7 +76,7 @@ TEST(SolveToRest, ADragThatHasSettledEndsAtTheEndOfAPiece) {
   EXPECT_EQ(flow.calls, (std::vector<int>{25, 25, 25}));
 }
 
-TEST(DragLeft, IsWhatAGeometricSeriesStillAdds) {
+TEST(DragLeft, IsTheRemainderOfAGeometricSeries) {
   std::vector<double> drags;
   for (int n = 0; n < 150; ++n) drags.push_back(100 + 20 * std::pow(0.99, n));
   const double last_block = 20 * std::pow(0.99, 125) * (1 - std::pow(0.99, 25)) / (25 * 0.01);

@@ -86,7 +86,7 @@ class Run {
     const FlowField field = flow_.field();
     const double force = dot(field.porous_force, field.porous_force),
                  gap = std::abs(dot(field.momentum_deficit, field.porous_force) / force - 1);
-    return !(gap > stopping_.momentum_gap);  // of an engine that does not know it: settled
+    return !(gap > stopping_.momentum_gap);  // NaN of an engine that does not compute it: settled
   }
 
   // A flow that reaches its residual in so few iterations that the estimate is not known has hardly changed.

@@ -118,8 +118,8 @@ std::vector<std::string> margin_warnings(const std::optional<Margins>& margins) 
   for (const Margin& m : weakest_of_kinds(*margins))
     if (m.margin && *m.margin < 0)
       all.push_back(
-          fmt::format("{} exceeds its allowable load: its load of {} {} with the safety factor is {} "
-                      "times the allowable {} {} (margin of safety {}); use a stronger material",
+          fmt::format("{} exceeds its allowable load: its load of {} {} times the safety factor is {} "
+                      "times the allowable {} {} (margin of safety {}); use a stronger part or material",
                       m.member, rounded(m.load), m.unit, rounded_apart(*m.used, 1).first,
                       rounded(*m.strength * m.knock_down), m.unit, margin_text(*m.margin)));
   return all;

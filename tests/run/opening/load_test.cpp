@@ -236,7 +236,7 @@ TEST(Load, TakesTheDragAreaOfASteadyRunAndNamesIt) {
   asked.steady = folder.path / "run";
   const LoadResult r = run_load(resolve(square_law_case()), asked);
   EXPECT_NEAR(r.drag_coefficient * r.reference_area, 1.1, 1e-3);
-  EXPECT_EQ(r.drag_source, "steady run " + asked.steady.string() + ": 1.1 m2");
+  EXPECT_EQ(r.drag_source, "steady run " + asked.steady.string() + ", drag area 1.1 m2");
 }
 
 TEST(Load, AHeavyPayloadIsAtInfiniteMass) {

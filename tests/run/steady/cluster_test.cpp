@@ -24,7 +24,7 @@ Case two_canopies(double spread_angle_deg) {
   given.flow.cells = {40, 26, 32};
   given.flow.canopy_position_m = 1.2;
   given.flow.core.size_m = Vec3{};
-  given.flow.symmetry = FlowSymmetry::automatic;
+  given.flow.symmetry = FlowSymmetry::quarter;
   given.flow.max_iterations = 150;
   given.flow.average_over = 30;
   given.coupling.load = CanopyLoad::uniform;

@@ -140,7 +140,7 @@ TEST(SpreadAngle, TheRunEndsAtTheAngleWhereForcesPointAlongTheAxes) {
     ASSERT_GE(r.cluster->search->size(), 2u);
     EXPECT_EQ(r.cluster->search->front().angle, 26);
     EXPECT_NEAR(r.cluster->search->front().force_angle, -0.5 * (26 - zero), 0.3);
-    EXPECT_EQ(r.cluster->search->back().angle, r.cluster->spread_angle_deg);
+    EXPECT_DOUBLE_EQ(r.cluster->search->back().angle, r.cluster->spread_angle_deg);
     EXPECT_EQ(r.cluster->search->back().force_angle, r.cluster->force_angle_deg);
     // The shape is that of this angle: the same as of a run that is given it.
     Case fixed = given;

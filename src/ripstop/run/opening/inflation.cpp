@@ -156,8 +156,9 @@ std::vector<std::string> slow_opening_warnings(const Settings& resolved) {
   const double rate = payload_first_speed(resolved.written(), stream.density_kg_m3);
   if (stream.speed_m_s > slow_opening * rate) return {};
   return {fmt::format(
-      "the opening begins at {} m/s, and the rate of descent of its payload is about {} m/s: give the "
-      "speed of the deployment with --speed or flow.speed_m_s",
+      "the opening begins at {} m/s, which is about the rate of descent of its payload ({} m/s), so its load "
+      "is "
+      "too small for a deployment: give the airspeed at line stretch with --speed or flow.speed_m_s",
       rounded(stream.speed_m_s, 3), rounded(rate, 3))};
 }
 

@@ -351,8 +351,12 @@ SteadyState final_state(const fs::path& folder) {
 
 Settings settings_of_run(const fs::path& folder) {
   if (!fs::exists(folder / "case.toml")) {
-    throw Error(ExitCode::usage,
-                fmt::format("{}: has no case.toml; run ripstop steady again with --fresh", folder.string()));
+    throw Error(
+        ExitCode::usage,
+        fmt::format(
+            "{}: has no case.toml, so it is no run of this program, or not complete; give the folder of "
+            "a finished run",
+            folder.string()));
   }
   return resolve(read_case(folder / "case.toml"));
 }
