@@ -1,5 +1,5 @@
-// The flow about the final shape of a steady run, from the start, in the full domain and in a quarter of it: drag, momentum
-// deficit and the change of drag that is left, over the iterations.
+// The flow about the final shape of a steady run, from the start, in the full domain and in a quarter of it: drag,
+// momentum deficit and the change of drag that is left, over the iterations.
 //
 // bench_settling RUN [ITERATIONS [EVERY]]
 //     RUN         folder of a finished steady run that may be solved in a quarter

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "ripstop/case/assemble.h"
+#include "ripstop/case/cost.h"
+#include "ripstop/case/summary.h"
 #include "ripstop/core/error.h"
 
 namespace ripstop {
@@ -58,6 +60,14 @@ TEST(Symmetry, AutoSolvesTheFullDomainOfACross) {
   const Settings cross =
       resolve(read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/cross/case.toml", {}));
   EXPECT_EQ(steady_problem(cross).full_box_because, "the cloth of a cross wrinkles without symmetry");
+}
+
+// One of the three canopies is its own mirror image, the cluster is not.
+TEST(Symmetry, TheEstimateForAClusterOfThreeIsThatOfTheFullDomain) {
+  const Settings three = resolve(
+      read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/cluster-of-three/case.toml", {}));
+  EXPECT_NE(steady_problem(three).full_box_because, "");
+  EXPECT_EQ(summarize(three).memory, cost_of(three, false).memory);
 }
 
 TEST(Symmetry, AnEngineWithoutPlanesOfSymmetrySolvesTheFullDomain) {

@@ -99,8 +99,8 @@ void require_axial_stream(const FlowSettings& flow, const char* what) {
 
 namespace {
 
-// The force on coarse cells depends on a few cells at the skirt, in a quarter on four at a time, and the coupling may then
-// alternate between two shapes. The whole of so coarse a box is solved in seconds.
+// The force on coarse cells depends on a few cells at the skirt, in a quarter on four at a time, and the coupling may
+// then alternate between two shapes. The whole of so coarse a domain is solved in seconds.
 constexpr double fewest_cells_across = 16;
 
 }  // namespace

@@ -20,9 +20,8 @@ struct FlowSettings;
 /// [cluster] as given.
 struct ClusterKeys {
   int canopies = 0;
-  double spread_angle_deg =
-      0;  // between the axes of a canopy and of the cluster; with `equilibrium` the first one
-  bool equilibrium = false;                       // the run searches for the angle
+  double spread_angle_deg = 0;  // between the axes of a canopy and of the cluster; of a search the first one
+  bool equilibrium = false;     // the run searches for the angle
   std::optional<double> single_drag_coefficient;  // of one canopy alone, for the cluster factor
 };
 void describe(Fields& fields, ClusterKeys& keys);

@@ -120,7 +120,8 @@ class Settings {
 Settings resolve(const Case& given);
 /// The same settings at another speed, which is the nominal one too [m/s].
 Settings at_speed(const Settings& resolved, double speed_m_s);
-/// The same settings, with the whole domain where flow.symmetry is "auto": for flows that continue in time or at an angle.
+/// The same settings, with the whole domain where flow.symmetry is "auto": for flows that continue in time or at an
+/// angle.
 Settings in_full_domain(const Settings& resolved);
 
 /// The same settings at another spread angle of the cluster, in the same domain [deg].

@@ -17,7 +17,7 @@ constexpr double settled_drag = 5e-4;
 constexpr double developing_wake = 0.04, settled_wake = 0.015;
 // Share of the drag by which a flow in full may still change: half of the default tolerance on its change.
 constexpr double most_drag_left = 2.5e-3;
-// Of the tolerance on the change of drag: beyond, a drag that has settled but is not known in full does not come back.
+// Times the tolerance on the change of drag: a drag that has settled farther away does not return within it.
 constexpr double far_away = 2;
 
 }  // namespace
@@ -85,9 +85,9 @@ bool SteadyConvergence::asks_for_full_flow(const SteadyState& state, const Stead
   return settings_.load == CanopyLoad::of_flow || last.drag_change < settings_.drag_tolerance;
 }
 
-// The load of the flow follows the wake, whose growth the drag alone does not show. If the drag settles away from that of
-// the last iteration, the coupling cannot converge in this one, and the flow is not solved in full. A flow without a mean
-// in place of its last field has to meet its residual alone.
+// The load of the flow follows the wake, whose growth the drag alone does not show. If the drag settles away from that
+// of the previous iteration, the coupling cannot converge in this one, and the flow is not solved in full. A flow that
+// is not averaged where it does not converge has to meet its residual only.
 Stopping SteadyConvergence::stopping(const FlowProblem& problem, const SteadyState& state,
                                      bool in_full) const {
   Stopping stopping = problem.stopping;

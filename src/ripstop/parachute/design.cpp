@@ -89,8 +89,7 @@ void describe(Fields& fields, LineSet& lines) {
   fields
       .number("onto_disk_m", lines.onto_disk_m, from(0).up_to(100),
               "Length of the lines that is sewn to the canopy, from the skirt; for a disk-gap-band, the part "
-              "on the "
-              "disk, without band and gap (assumed: the source does not give it).")
+              "on the disk, without band and gap (assumed: the source does not give it).")
       .absent("to the edge of the vent (assumed)");
 }
 

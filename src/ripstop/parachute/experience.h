@@ -31,7 +31,7 @@ struct Experience {
   /// number is valid for other sizes.
   int cloth_nodes = 0;
   /// Radius of the folded skirt over the nominal diameter where a closed mouth is requested without a radius: one at
-  /// which the example folds with a strain below 1e-3 and without pierced edges (tests/fsi/folded_start_test.cpp).
+  /// which the example folds with a strain below 1e-3 and without pierced edges (tests/case/deployment_test.cpp).
   double closed_mouth = 0.04;
 };
 

@@ -149,8 +149,8 @@ bool in_equilibrium(const ClusterResult& cluster);
 /// The search tried the allowed number of spread angles, and none of them is that of equilibrium.
 bool search_failed(const ClusterResult& cluster);
 
-/// Of the drag to the weight, relative; of the speed it is half. Half of the default tolerance on the change of drag: the
-/// coupling does not resolve less.
+/// Of the drag to the weight, relative; of the speed it is half. Half of the default tolerance on the change of drag:
+/// the coupling does not resolve less.
 inline constexpr double payload_tolerance = 2.5e-3;
 
 /// The numbers of one run: result.json.
