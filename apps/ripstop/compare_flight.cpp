@@ -109,8 +109,8 @@ void add_compare_flight(CLI::App& app, int& status) {
              "Height of the ground above sea level [m]");
   add_number(*command, "--height-zero", options->request.height_zero,
              from(-highest_height).up_to(highest_height),
-             "Height above ground at which the log reads 0 [m]; for heights above sea level, minus the "
-             "height of the ground");
+             "Height above ground where the log reads 0 [m]; -200 for a log of heights above sea level and "
+             "--ground 200");
   add_number(*command, "--body-drag-area", options->request.body_drag_area, from(0).up_to(100),
              "Drag area of everything but the canopies [m2]");
   command->add_option("--run", options->request.runs,

@@ -37,7 +37,7 @@ void print_result(const Descent& d) {
       "m/s)\n",
       d.title, d.payload_mass, d.parachute_mass, d.drag_area, d.drag_area_uncertainty, d.run_speed);
   print_text("  drag coefficient {:.3f} on S0, {}{}\n", d.drag_coefficient,
-             d.basis == "descent" ? "in descent (flown)" : "axial (steady flow on the axis)",
+             d.basis == "descent" ? "in descent (computed free flight)" : "axial (steady flow on the axis)",
              d.known_coefficient ? fmt::format("; Knacke, in descent: {:.2f} to {:.2f}",
                                                d.known_coefficient->at(0), d.known_coefficient->at(1))
                                  : "");

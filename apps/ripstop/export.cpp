@@ -99,12 +99,12 @@ void add_export(CLI::App& app, int& status) {
   command->add_option("--trigger", options->trigger,
                       "Deployment trigger: apogee, or a height above the ground [m]");
   add_number(*command, "--deployment-speed", options->deployment_speed, above(0).up_to(1000),
-             "Speed at deployment, which sets the filling time (lag) [m/s]")
+             "Airspeed at line stretch, which sets the filling time (lag) [m/s]")
       ->default_str(fmt::format(
           "speed of the run; with [payload], {:g} times the rate of descent, but at least {:g} m/s",
           deployment_over_descent, least_deployment_speed));
   add_number(*command, "--drogue-speed", options->drogue_speed, above(0).up_to(1000),
-             "Speed at deployment of the drogue [m/s]")
+             "Airspeed at line stretch of the drogue [m/s]")
       ->default_str("as --deployment-speed");
   CLI::Option* drogue =
       add_run_folder(*command, "--drogue", options->drogue,

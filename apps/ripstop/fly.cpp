@@ -207,9 +207,9 @@ void add_fly(CLI::App& app, int& status) {
                  options->overrides);
   add_key_option(*command, "--wind", "flight.wind.speed_m_s", "Speed of the wind [m/s]", options->overrides);
   add_key_option(*command, "--cells-across", "flight.cells_across",
-                 "Cells of the flow across the nominal diameter", options->overrides);
+                 "Number of flow cells across the nominal diameter (ripstop stability: across the projected one)", options->overrides);
   add_key_number(*command, "--speed", "flow.speed_m_s", options->overrides.speed,
-                 "Speed of the payload at deployment, with --deploy [m/s]");
+                 "Airspeed of the payload at deployment, with --deploy [m/s]");
   CLI::Option* deploy = command->add_flag_callback(
       "--deploy",
       [options] {

@@ -46,13 +46,18 @@ std::string air_text(double height, double density, const std::string& from) {
 
 /// The caution is printed where it differs from that of the stage before.
 void print_stage(const StageLoads& s, const LoadResult& r, const std::string& known_caution) {
+  const double share = s.filling_time * s.speed / (s.filling_constant * r.nominal_diameter);
   print_text(
       "\nstage from {:.2f} s: {:.3g} m/s on a path {:.3g} deg below the horizon, {:.4g} m above sea level, "
       "{:.4g} "
       "kg/m3, drag area {:.3g} to {:.3g} m2\n"
-      "  filling time {:.3g} s ({:.3g} D0 at this speed), ballistic parameter {:.3g}, mass ratio {:.3g}\n",
+      "  filling time {:.3g} s = {:.3g} D0 / speed{}, ballistic parameter {:.3g}, mass ratio {:.3g}\n",
       s.begin, s.speed, s.path_angle, s.height, s.density, s.drag_area_before, s.drag_area, s.filling_time,
-      s.filling_constant, s.ballistic_parameter, s.mass_ratio);
+      s.filling_constant,
+      share < 0.9995
+          ? fmt::format(" x {:.3g} (square root of the drag area that the stage adds over the full one)", share)
+          : "",
+      s.ballistic_parameter, s.mass_ratio);
   const int width = both_units() ? 24 : 10;
   fmt::print("  {:<18} {:>{}} {:>8}  {:<8} {}\n", "method", "load", width, "time s", "use for", "reason");
   std::vector<std::string> notes;  // each is printed once, below the table
@@ -111,7 +116,7 @@ void print_fastest(const FastestResult& r, const fs::path& folder) {
   print_text("  at line stretch: path {:.3g} deg below the horizon, {}\n", r.path_angle,
              air_text(r.height, r.density, r.air_source));
   print_text("  FASTEST SAFE DEPLOYMENT {}\n", safe_speed_text(r.design()));
-  print_text("  margin of safety {:g} of every member; uncertainty of the load {:.0f} %: {}\n\n", r.margin,
+  print_text("  margin of safety {:g} of tape or hem, lines, riser and hardware (the cloth is not checked); uncertainty of the load {:.0f} %: {}\n\n", r.margin,
              100 * r.load_uncertainty, r.load_uncertainty_from);
   for (const SafeSpeed& s : r.methods)
     print_text("  {:<18} {}; load {:.1f} N{}\n", s.method, safe_speed_text(s), s.load,
@@ -136,12 +141,15 @@ void print_result(const LoadResult& r, const fs::path& folder) {
   print_text("  DESIGN LOAD {:.1f} N: {}; largest line load {:.2f} times the mean\n", r.design_load,
              r.design_load_from, r.line_load_factor);
   print_text(
-      "  Lines, tape, riser and hardware are designed for this load{}. The load of an \"estimate\" is "
-      "expected if the canopy fills as that method assumes.\n",
-      r.design_method == infinite_mass_method
-          ? ", which does not depend on the filling: methods with a smaller load assume a filling distance"
-          : "");
-  print_margins(r.margins);
+      "  highest design load {:.1f} N, with the uncertainty of {:.0f} % ({}): select lines, tape, riser and "
+      "hardware for this load\n",
+      r.highest_design_load, 100 * r.load_uncertainty, r.load_uncertainty_from);
+  if (r.design_method == infinite_mass_method)
+    print_text("  The design load does not depend on the filling. Methods with a smaller load assume a filling "
+               "distance.\n");
+  print_text("  The load of an \"estimate\" is expected if the canopy fills as that method assumes.\n");
+  const bool snatch = r.snatch && r.snatch->largest() > r.design_load;  // the margins are then those of the snatch load
+  print_margins(r.margins, snatch ? std::nullopt : std::optional(r.highest_design_load / r.design_load));
   print_row("required hardware", hardware_text(r.hardware));
   std::string caution;
   for (const StageLoads& stage : r.stages) {
@@ -250,7 +258,7 @@ void add_load(CLI::App& app, int& status) {
               "speed difference is known")
           ->excludes(speed);
   add_number(*command, "--margin", options->margin, from(0).up_to(100),
-             "Margin of safety that every member keeps with --fastest")
+             "Margin of safety that tape or hem, lines, riser and hardware keep with --fastest")
       ->needs(fastest);
   const Range height = from(lowest_height).up_to(highest_height);
   add_number(*command, "--height", options->height, height,

@@ -38,7 +38,7 @@ void print_margins(const std::optional<Margins>& margins, std::optional<double> 
                         m.used       ? fmt::format("{:.1f} %", 100 * *m.used) + under_largest(m)
                         : m.strength ? std::string("no load")
                                      : std::string("strength not known"));
-  print_row("utilisation", text + (largest ? "; under the design load (under the largest load)" : ""));
+  print_row("utilisation", text + (largest ? "; under the design load (under the highest design load)" : ""));
   if (!margins->weakest.empty()) {
     const Margin& m = *weakest(*margins);
     print_row("weakest member",

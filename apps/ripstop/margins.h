@@ -14,7 +14,7 @@ namespace ripstop::cli {
 /// `max_line_tension` in N.
 void print_stresses(double max_line_tension, const StressPeak& stress);
 void print_payload(const SteadyResult& result);
-/// With `largest`, the ratio of the largest load to the load of the margins, the utilisation under both.
+/// With `largest`, the ratio of the highest design load to the load of the margins, the utilisation under both.
 void print_margins(const std::optional<Margins>& margins, std::optional<double> largest = {});
 /// A line where --mass replaces another payload.mass_kg of the case.
 void print_replaced_mass(const std::optional<double>& given, const Settings& resolved);

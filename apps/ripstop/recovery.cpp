@@ -66,7 +66,7 @@ void print_stage(const RecoveryStage& s, bool wind) {
     print_row("separation load",
               fmt::format("{} N on the shock cord when two sections separate", rounded(*s.separation_load)));
   print_row("margins and hardware",
-            fmt::format("under {} N, the upper end of the design load{}", rounded(s.largest_design_load),
+            fmt::format("under {} N, the highest design load{}", rounded(s.largest_design_load),
                         s.separation_load == s.hardware.rated ? "; of hardware under the separation load"
                         : s.hardware.rated > s.largest_design_load
                             ? "; of lines, riser and hardware under the snatch load"

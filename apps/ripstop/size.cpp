@@ -51,9 +51,9 @@ void print_result(const SizeResult& r, const fs::path& file, const fs::path& pag
                                     r.handbook_drag_coefficient->at(0), r.handbook_drag_coefficient->at(1))
                       : ""));
   row("C_D of the family", fmt::format("axial {:.3f}, in descent {}", r.axial_coefficient,
-                                       r.flown_coefficient ? fmt::format("{:.3f} +- {:.3f} (flown)",
+                                       r.flown_coefficient ? fmt::format("{:.3f} +- {:.3f} (computed free flight)",
                                                                          *r.flown_coefficient, *r.flown_error)
-                                                           : std::string("not flown")));
+                                                           : std::string("not computed for this family and cloth")));
   row("nominal diameter",
       fmt::format("{:.3f} m{}, S0 {:.4g} m2", r.nominal_diameter,
                   r.handbook_diameter ? fmt::format(" ({:.2f} to {:.2f} m by the handbook)",
@@ -71,13 +71,13 @@ void print_result(const SizeResult& r, const fs::path& file, const fs::path& pag
   row("DESIGN LOAD", fmt::format("{:.0f} N at {:.3g} m/s: {}; largest line load {:.2f} times the mean",
                                  r.design_load, r.deployment_speed, r.design_load_from, r.line_load_factor));
   if (r.smallest_margin)
-    row("largest load", fmt::format("{:.0f} N with the uncertainty of {:.0f} % ({}): margin of safety {}, {}",
-                                    r.largest_load, 100 * r.load_uncertainty, r.load_uncertainty_from,
+    row("highest design load", fmt::format("{:.0f} N with the uncertainty of {:.0f} % ({}): margin of safety {}, {}",
+                                    r.highest_design_load, 100 * r.load_uncertainty, r.load_uncertainty_from,
                                     margin_text(*r.smallest_margin), r.smallest_margin_member));
   row("opening load", fmt::format("{:.0f} to {:.0f} N by the applicable methods (see ripstop load)",
                                   r.opening_load_low, r.opening_load));
   if (!r.opening.front().caution.empty()) row("", r.opening.front().caution);
-  print_margins(r.margins, r.largest_load / r.design_load);
+  print_margins(r.margins, r.highest_design_load / r.design_load);
   for (const SizeCheck& c : r.checks)
     row(c.basis == "descent" ? "flight" : "run",
         fmt::format("diameter {:.3f} m, descent rate {:.3f}{} m/s, C_D {:.3f} ({})", c.nominal_diameter,
@@ -206,7 +206,7 @@ void add_size(CLI::App& app, int& status) {
                             "Reference area of --drag-coefficient: nominal (S0), or projected (circle of the "
                             "open canopy, as stated by makers)");
   add_number(*command, "--deployment-speed", r.deployment_speed, above(0).up_to(1000),
-             "Speed at deployment, for the opening load [m/s]")
+             "Airspeed at line stretch, for the opening load [m/s]")
       ->default_str(fmt::format("{:g}, or {:g} times the descent rate if that is higher",
                                 least_deployment_speed, deployment_over_descent));
   command->add_option("--line-material", r.line_material, "Line material of the library")

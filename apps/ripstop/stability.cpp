@@ -195,7 +195,7 @@ void add_stability(CLI::App& app, int& status) {
   command->add_option("case", options->case_file, "Case file (TOML)")->required();
   command->add_option("--angles", options->angles, "Angles of attack FROM:TO:STEP, or one angle [deg]");
   add_number(*command, "--cells-across", options->settings.across, from(8).up_to(100),
-             "Cells of the flow over the projected diameter");
+             "Number of flow cells across the projected diameter (ripstop fly: across the nominal one)");
   command
       ->add_option(
           "--steady", options->settings.steady,

@@ -9,7 +9,7 @@ inline constexpr std::string_view meanings_of_design = R"(
 # load()
 Load.speed_m_s: airspeed at line stretch
 Load.height_m: height above sea level at line stretch
-Load.required_load_n: larger one of design load and snatch load, for margins of lines, riser and hardware
+Load.required_load_n: larger one of highest_design_load_n and snatch load, for the required hardware
 Load.opening_coefficient: opening force coefficient C_x
 Load.opening_coefficient_from: source of C_x
 Load.filling_exponent: exponent of the drag area over time
@@ -160,14 +160,17 @@ FlownDrag.made: command and machine of the flight
 Size.descent_rate_m_s: required rate of descent
 Size.height_m: height above sea level at which this rate is required, and at which the parachute opens
 Size.axial_drag_coefficient: axial drag coefficient of the family on S0
-Size.descent_drag_coefficient: drag coefficient of the family in descent on S0; None: not flown
+Size.descent_drag_coefficient: drag coefficient of the family in descent on S0, from a computed free flight; None: there is none
 Size.handbook_diameter_m: nominal diameters that follow from the range of the handbook, largest first
 Size.tape_material: material of the tape; "none": without tape
 Size.tape_material_from: reason for the tape
-Size.deployment_speed_m_s: speed at deployment
+Size.deployment_speed_m_s: airspeed at line stretch
 Size.load_uncertainty: relative uncertainty of the design load
-Size.smallest_margin_of_safety: margin of safety of the weakest member under the largest load
-Size.smallest_margin_member: weakest member under the largest load
+Load.load_uncertainty: relative uncertainty of the design load
+Load.highest_design_load_n: design load plus its uncertainty
+Size.highest_design_load_n: design load plus its uncertainty
+Size.smallest_margin_of_safety: margin of safety of the weakest member under the highest design load
+Size.smallest_margin_member: weakest member under the highest design load
 Size.opening_load_n: largest opening load of the applicable methods
 Size.opening_load_low_n: smallest opening load of the applicable methods
 Size.checks: runs of the verification, in order

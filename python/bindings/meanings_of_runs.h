@@ -11,7 +11,7 @@ inline constexpr std::string_view meanings_of_runs = R"(
 title: title of the case
 inputs_hash: hash of all inputs of the result; None: not written to a folder
 warnings: warnings about the result
-usable: False: a quality limit that must hold is exceeded, exit code 4; None: result of an earlier version
+usable: False: the result must not be used, because a quality limit is exceeded (exit code 4); None: result of an earlier version
 converged: whether all criteria of convergence are met
 nodes: number of nodes of the mesh, lines included
 steps: number of steps
@@ -21,7 +21,7 @@ payload_mass_kg: mass of the payload, without the parachute
 parachute_mass_kg: mass of the parachute as cut and sewn
 projected_area_m2: projected area
 max_principal_direction: direction of the maximum principal stress (x, y, z)
-known_drag_coefficient: usual range of the drag coefficient in descent on S0 (Knacke), low and high
+known_drag_coefficient: range of the drag coefficient in descent on S0 (Knacke), low and high
 handbook_drag_coefficient: range of the drag coefficient in descent on S0 (Knacke), low and high
 drag_coefficient: drag coefficient on S0
 drag_coefficient_basis: kind of the coefficient: "axial" (steady flow on the axis), "descent" (flight) or "given"
@@ -80,7 +80,7 @@ DampingTrial.peak_time_s: time of this peak
 DampingTrial.every_step_peak_n: peak load over all time steps, unfiltered
 DampingTrial.inflation_time_s: time after which the load remains within 10 % of the steady load
 # check()
-Check.computed_area_m2: area of the cloth as cut
+Check.computed_area_m2: area of the finished cloth, without allowances
 Check.meshed_area_m2: area of the cloth as meshed, a polyhedron inside the cut cloth
 Check.vent_area_m2: area of the vent as constructed
 Check.slot_area_m2: area of slots and gaps as constructed

@@ -173,7 +173,7 @@ void add_mesh(py::module_& module) {
       "Mass of every node, (n,) [kg]; raises Error for an incomplete mesh.");
   type.def_property_readonly(
       "cloth_area_m2", [](const PyMesh& self) { return cloth_area(self.own.mesh()); },
-      "Area of the cloth as cut [m2].");
+      "Area of the finished cloth, without allowances [m2].");
 }
 
 }  // namespace ripstop::python

@@ -56,6 +56,7 @@ struct Mistake {
 
 TEST_F(FlightCommands, BadInputIsRefusedWithItsReasonAndLeavesNoFile) {
   fs::create_directories(in("empty"));
+  fs::create_directories(in("other") + "/notes");
   const auto load = [&](std::vector<std::string> more) {
     std::vector<std::string> all = {"load", flat_, "--out", in("load")};
     all.insert(all.end(), more.begin(), more.end());
@@ -100,7 +101,8 @@ TEST_F(FlightCommands, BadInputIsRefusedWithItsReasonAndLeavesNoFile) {
       {opening({"--packed-area", "1", "--payload-area", "-1"}), "--payload-area = -1: must be at least 0"},
       {opening({"--steady", in("empty")}), "contains no finished run of ripstop steady"},
       {opening({"--opening", in("empty")}), "contains no finished run of ripstop inflate"},
-      {{"descent", in("empty"), "--mass", "4"}, "compute one with: ripstop steady CASE"},
+      {{"descent", in("empty"), "--mass", "4"}, "compute one with: ripstop steady CASE --out " + in("empty")},
+      {{"descent", in("other"), "--mass", "4"}, "give the folder of one, or compute one with: ripstop steady CASE --out runs/NAME"},
       {{"descent", in("none"), "--mass", "4"}, "contains no finished run of ripstop steady"},
       {{"export", "rocketpy", in("empty")}, "contains no finished run of ripstop steady"},
       {{"export", "openrocket", in("none")}, "contains no finished run of ripstop steady"},

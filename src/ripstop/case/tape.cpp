@@ -68,16 +68,17 @@ UsualOpening usual_opening(const Case& given) {
   const double known = experience(given.parachute).opening_coefficient;
   const double drag = design_drag_coefficient(
       given.parachute, given.inflation.drag_coefficient.value_or(usual_drag_coefficient(given.parachute)));
-  return {speed, (known > 0 ? known : unknown_opening) * drag * nominal_area(given.parachute) * 0.5 *
-                     stream.density * speed * speed};
+  const double load = (known > 0 ? known : unknown_opening) * drag * nominal_area(given.parachute) * 0.5 *
+                      stream.density * speed * speed;
+  return {speed, load, sinks ? "assumed: the case gives no speed of the opening" : "flow.speed_m_s"};
 }
 
 TapeMaterial tape_material(const Case& given) {
   if (given.parachute.tape.material) return {*given.parachute.tape.material, "given", 0};
-  const auto [speed, load] = usual_opening(given);
+  const auto [speed, load, from] = usual_opening(given);
   TapeMaterial tape =
       tape_for(given, experience(given.parachute).line_load_factor * load / given.parachute.lines.count);
-  tape.from += fmt::format(" when it opens at {:.3g} m/s", speed);
+  tape.from += fmt::format(" in an opening at {:.3g} m/s ({})", speed, from);
   return tape;
 }
 

@@ -17,6 +17,7 @@ struct TapeMaterial {
 /// Infinite-mass load of the opening, C_x C_D S0 q with the C_x and C_D of the family.
 struct UsualOpening {
   double speed = 0, load = 0;  // [m/s], [N]
+  std::string from;            // source of the speed
 };
 /// At the case's speed. A payload that the case sinks with opens its parachute at usual_deployment_speed(). Throws
 /// Error(usage) for a case without air.

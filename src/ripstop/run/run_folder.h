@@ -97,5 +97,8 @@ void refuse_lost(const ClaimedFolder& folder);
 /// result.json of a run that had ended. Throws Error(bad_data) when it or any other file of the run was
 /// lost or changed since, or is of other inputs than the folder.
 std::optional<std::string> finished_result(const std::filesystem::path& folder);
+/// Throws Error(usage): the folder does not exist, or contains no finished run of `command` ("steady"), with the command
+/// that computes one.
+[[noreturn]] void refuse_unfinished(const std::filesystem::path& folder, const char* command);
 
 }  // namespace ripstop::inline run

@@ -44,7 +44,7 @@ TEST(DesignLoad, OfASmallSlowCanopyIsThatOfInfiniteMass) {
   const double q = 0.5 * standard_air(300).density * 400, expected = 1.7 * 0.80 * r.reference_area * q;
   EXPECT_NEAR(r.design_load, expected, 1e-9 * expected);
   EXPECT_GT(r.design_load, 718);
-  EXPECT_EQ(r.design_load_from.find("infinite mass, C_x C_D S0 q with C_D 0.80 in descent"), 0u);
+  EXPECT_EQ(r.design_load_from.find("infinite mass, C_x C_D S0 q with C_D 0.80 (handbook, in descent)"), 0u);
   const StageLoads& stage = r.stages.front();
   EXPECT_FALSE(method(stage, "Pflanz").applies) << "straight down gravity adds a third to the speed";
   for (const char* name : {"momentum-impulse", "trajectory"}) {
@@ -249,7 +249,22 @@ TEST(DesignLoad, TheResultHasTheStateAtLineStretch) {
   EXPECT_EQ(json.at("density_kg_m3"), standard_air(300).density);
   EXPECT_FALSE(json.at("air_from").get<std::string>().empty());
   EXPECT_EQ(json.at("stages").at(0).at("path_angle_deg"), 40);
-  EXPECT_EQ(json.at("required_load_n"), json.at("design_load_n"));
+  EXPECT_EQ(json.at("required_load_n"), json.at("highest_design_load_n"));
+}
+
+// Drag area 10 % and scatter of openings 15 %, as independent parts; a measured load has the scatter only.
+TEST(DesignLoad, TheHighestOneContainsTheUncertainty) {
+  const Settings canopy = resolve(sized_canopy(1.76));
+  LoadRequest asked = drop();
+  asked.drag_coefficient = 0.7;
+  const LoadResult r = run_load(canopy, asked);
+  EXPECT_NEAR(r.highest_design_load / r.design_load, 1 + std::hypot(0.10, 0.15), 1e-12);
+  EXPECT_EQ(r.required_load, r.highest_design_load);
+  EXPECT_EQ(r.hardware.rated, r.highest_design_load);
+  asked.measured_load = 500;
+  const LoadResult measured = run_load(canopy, asked);
+  EXPECT_NEAR(measured.highest_design_load, 575, 1e-9);
+  EXPECT_EQ(measured.load_uncertainty_from.find("drag area"), std::string::npos) << measured.load_uncertainty_from;
 }
 
 // `check` chooses the tape, and `inflate` compares with the infinite-mass load; both are that of `load`.

@@ -13,7 +13,7 @@ namespace {
 
 bool warns_of_opening(const CheckResult& result) {
   return std::any_of(result.warnings.begin(), result.warnings.end(), [](const std::string& text) {
-    return text.starts_with("when it opens at ") && text.find("margin of safety") != std::string::npos;
+    return text.starts_with("in an opening at ") && text.find("margin of safety") != std::string::npos;
   });
 }
 

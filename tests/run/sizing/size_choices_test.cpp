@@ -80,7 +80,7 @@ TEST(SizeChoices, AStrongerLineIsPreferredWhereTheLineOf2GramsAMetreIsTooWeak) {
   const SizeResult usual = run_size(asked);
   EXPECT_EQ(usual.line_material, "spectra-line");
   const double allowed = 3180 * 0.8 * 0.95 * 0.95 * 0.95;
-  EXPECT_NEAR(usual.line_used, 1.5 * usual.line_load_factor * usual.largest_load / usual.line_count / allowed,
+  EXPECT_NEAR(usual.line_used, 1.5 * usual.line_load_factor * usual.highest_design_load / usual.line_count / allowed,
               1e-9);
   asked.deployment_speed = 36;
   const SizeResult fast = run_size(asked);
@@ -121,7 +121,7 @@ TEST(SizeChoices, AMarginThatTheUncertaintyOfTheLoadUsesUpIsWarnedOf) {
   const SizeResult r = run_size(asked);
   const double u = std::hypot(0.1, 0.15);
   EXPECT_NEAR(r.load_uncertainty, u, 1e-12);
-  EXPECT_NEAR(r.largest_load / r.design_load, 1 + u, 1e-12);
+  EXPECT_NEAR(r.highest_design_load / r.design_load, 1 + u, 1e-12);
   const Margin* weak = weakest(*r.margins);
   ASSERT_TRUE(weak);
   EXPECT_EQ(weak->member, "line");
@@ -209,15 +209,15 @@ TEST(SizeChoices, ItsCaseFileHasItsNumbersInComments) {
   has(fmt::format("  # {:.2f} to {:.2f} for the handbook range of C_D", r.handbook_diameter->at(1),
                   r.handbook_diameter->at(0)));
   has(fmt::format("  # {:.2f} % of the area", 100 * r.vent_area / r.nominal_area));
-  has(fmt::format("  # utilisation {:.0f} % under the largest load", 100 * r.line_used));
+  has(fmt::format("  # utilisation {:.0f} % under the highest design load", 100 * r.line_used));
   has(fmt::format(
       "# Parachute {:.3g} kg: cloth {:.3g}, tape {:.3g}, lines {:.3g}; packed {:.3g} litres at {:g} kg/m3",
       r.parachute_mass, r.cloth_mass, r.tape_mass, r.line_mass, 1000 * r.packed_volume,
       wanted().packing_density));
   has(fmt::format("# Design load {:.0f} N for a payload of 2.4 kg at 20 m/s: infinite mass", r.design_load));
   has(fmt::format(
-      "# Largest load {:.0f} N, with the uncertainty of 18 %: drag area 10 % (axial coefficient), scatter",
-      r.largest_load));
+      "# Highest design load {:.0f} N, with the uncertainty of 18 %: drag area 10 % (axial coefficient), scatter",
+      r.highest_design_load));
   has(fmt::format("[inflation]\ndrag_coefficient = {}", r.drag_coefficient));
   has("speed_m_s = 5  # start value of the iteration");
 }

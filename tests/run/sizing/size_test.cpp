@@ -104,7 +104,7 @@ TEST(Size, TapeCarriesTheOpeningLoadAndIsNoneWhereAHemDoes) {
   ASSERT_TRUE(tape);
   EXPECT_EQ(tape->name, heavy.tape_material);
   const double left = tape->break_load_n * 0.8 * 0.95 * 0.95 * 0.95 / 1.5;
-  EXPECT_GE(left, heavy.line_load_factor * heavy.largest_load / heavy.line_count);
+  EXPECT_GE(left, heavy.line_load_factor * heavy.highest_design_load / heavy.line_count);
   EXPECT_GT(heavy.tape_mass, 0);
   EXPECT_NE(
       heavy.case_text.find("material = \"" + heavy.tape_material + "\"  # the lightest tape that carries"),

@@ -23,7 +23,7 @@ std::string literal(const std::string& text) {
 }
 
 std::string basis_text(const ExportedParachute& p) {
-  return (p.basis == "descent" ? "that in descent (flown, with glide and oscillation)"
+  return (p.basis == "descent" ? "that in descent (computed free flight, with glide and oscillation)"
                                : "axial (steady flow on the axis, without glide and oscillation)") +
          (p.known_coefficient ? fmt::format("; Knacke, in descent: {:.2f} to {:.2f}",
                                             p.known_coefficient->at(0), p.known_coefficient->at(1))

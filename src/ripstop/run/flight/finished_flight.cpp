@@ -17,12 +17,7 @@ bool holds_flight(const std::filesystem::path& folder) {
 }
 
 FinishedFlight finished_flight(const std::filesystem::path& folder) {
-  if (!holds_flight(folder))
-    throw Error(
-        ExitCode::usage,
-        fmt::format(
-            "{0}: contains no finished run of ripstop fly; compute one with: ripstop fly CASE --out {0}",
-            folder.string()));
+  if (!holds_flight(folder)) refuse_unfinished(folder, "fly");
   FinishedFlight flight{folder, settings_of_run(folder),
                         from_json_text<FlightResult>(*finished_result(folder), "the result of a flight")};
   if (!flight.result.coefficient || !flight.result.descent)

@@ -293,16 +293,19 @@ void fly_record(const OpeningRecord& record, const LoadRequest& request, LoadRes
   compare_methods(stage);
 }
 
+std::string scatter_text() {
+  return fmt::format("scatter of repeated openings {:.0f} %", 100 * opening_scatter);
+}
+
 /// The infinite-mass load of the stage with the highest, or that of a method that applies and has more (a payload that is
 /// accelerated on its path), unless a measurement or a computed opening replaces it. A computed opening with a limit
 /// replaces only a smaller load.
-void choose_design_load(const Settings& resolved, const LoadRequest& request, LoadResult& r) {
+void choose_design_load(const Settings& resolved, const LoadRequest& request, const DragCoefficient& drag, LoadResult& r) {
   for (const StageLoads& stage : r.stages)
     r.design_load = std::max(r.design_load, stage.methods.front().load);
   r.design_load_from = "infinite mass, C_x C_D S0 q", r.design_method = infinite_mass_method;
   if (r.design_drag_coefficient > r.drag_coefficient)
-    r.design_load_from += fmt::format(" with C_D {:.2f} in descent, for which the handbook gives C_x",
-                                      r.design_drag_coefficient);
+    r.design_load_from += fmt::format(" with C_D {:.2f} (handbook, in descent)", r.design_drag_coefficient);
   for (const StageLoads& stage : r.stages)
     for (const MethodLoad& m : stage.methods)
       if (m.applies && m.load > r.design_load)
@@ -317,6 +320,11 @@ void choose_design_load(const Settings& resolved, const LoadRequest& request, Lo
     r.design_method = computed_method;
   }
   r.line_load_factor = experience(resolved.parachute()).line_load_factor;
+  LoadUncertainty uncertainty = request.measured_load
+                                    ? LoadUncertainty{opening_scatter, scatter_text()}
+                                    : load_uncertainty(drag);
+  r.load_uncertainty = uncertainty.value, r.load_uncertainty_from = std::move(uncertainty.from);
+  r.highest_design_load = (1 + r.load_uncertainty) * r.design_load;
   const double mach = request.speed / standard_air(r.height).sound_speed;
   for (const std::string& text : outside_range(infinite_mass_model, {{"Mach number", mach}}))
     r.warnings.push_back(text);
@@ -325,10 +333,19 @@ void choose_design_load(const Settings& resolved, const LoadRequest& request, Lo
 /// Margins and required strengths, of the opening or of the snatch before it.
 void take_required_load(const Settings& resolved, LoadResult& r) {
   const double largest_snatch = r.snatch ? r.snatch->largest() : 0;
-  r.required_load = std::max(r.design_load, largest_snatch);
+  r.required_load = std::max(r.highest_design_load, largest_snatch);
   r.margins = load_margins(resolved, r.design_load, largest_snatch);
   r.hardware = hardware_need(r.required_load, resolved.margins());
   for (const std::string& text : margin_warnings(r.margins)) r.warnings.push_back(text);
+  const Margins highest = load_margins(resolved, r.highest_design_load, largest_snatch);
+  if (const Margin *usual = weakest(*r.margins), *least = weakest(highest);
+      usual && *usual->margin >= 0 && *least->margin < 0)
+    r.warnings.push_back(fmt::format(
+        "under the highest design load of {} N, which contains the uncertainty of {:.0f} %, the {} exceeds its "
+        "allowable load (margin of safety {}): the fastest safe deployment (ripstop load --fastest) is slower than "
+        "{:g} m/s; use a stronger material",
+        rounded(r.highest_design_load), 100 * r.load_uncertainty, least->member, margin_text(*least->margin),
+        r.speed));
   if (!r.snatch) return;
   for (const auto& [part, ratio] :
        {std::pair("a line", r.snatch->line_margin), std::pair("the riser", r.snatch->riser_margin)})
@@ -386,8 +403,7 @@ double slowest_opening(double mass, double drag_area, double density, double pat
 
 LoadUncertainty load_uncertainty(const DragCoefficient& drag) {
   return {std::hypot(drag.uncertainty, opening_scatter),
-          fmt::format("drag area {:.0f} % ({}), scatter of repeated openings {:.0f} %",
-                      100 * drag.uncertainty, drag.from, 100 * opening_scatter)};
+          fmt::format("drag area {:.0f} % ({}), {}", 100 * drag.uncertainty, drag.from, scatter_text())};
 }
 
 LoadInputs load_inputs(const Settings& resolved, const LoadRequest& request) {
@@ -431,7 +447,7 @@ LoadResult run_load(const Settings& resolved, const LoadRequest& request, const 
   }
   fly_stages(request, r);
   if (inputs.opening) fly_record(*inputs.opening, request, r);
-  choose_design_load(resolved, request, r);
+  choose_design_load(resolved, request, inputs.drag, r);
   if (request.descent) r.snatch = snatch_of(resolved, request, r);
   take_required_load(resolved, r);
   return r;

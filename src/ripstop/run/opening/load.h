@@ -109,10 +109,13 @@ struct LoadResult {
   double design_load = 0;               // load for which lines and riser are to be designed [N]
   std::string design_load_from;         // measured, computed or infinite mass
   std::string design_method;            // of a stage, whose load this is; empty: measured
-  double required_load = 0;             // of lines, riser and hardware: design load or larger snatch load [N]
+  double load_uncertainty = 0;          // of the design load, relative
+  std::string load_uncertainty_from;
+  double highest_design_load = 0;       // design load with its uncertainty [N]
+  double required_load = 0;             // of hardware: highest design load or larger snatch load [N]
   HardwareNeed hardware;                // under it
   double line_load_factor = 1;          // largest line load over an equal share, of the family
-  std::optional<Margins> margins;       // the same, and of tape or hem under the design load
+  std::optional<Margins> margins;       // of tape or hem under the design load, of the others also under the snatch load
   double peak_load = 0, peak_time = 0;  // of the trajectory [N], [s]
   std::optional<double> record_peak_load;  // of the trajectory with a computed opening's drag area [N]
   std::string
@@ -149,6 +152,9 @@ void each_member(T& r, Visit&& visit) {
   visit("design_load_n", r.design_load);
   visit("design_load_from", r.design_load_from);
   visit("design_method", r.design_method);
+  visit("load_uncertainty", r.load_uncertainty);
+  visit("load_uncertainty_from", r.load_uncertainty_from);
+  visit("highest_design_load_n", r.highest_design_load);
   visit("required_load_n", r.required_load);
   visit("required_hardware", r.hardware);
   visit("line_load_factor", r.line_load_factor);
@@ -179,8 +185,8 @@ struct DragCoefficient {
 inline constexpr double usual_drag_uncertainty = 0.1;
 DragCoefficient opening_drag_coefficient(const Settings& resolved, const LoadRequest& request);
 
-/// Relative uncertainty of an opening load that is not measured: of the drag area and of the scatter of repeated openings
-/// (opening_scatter), as independent parts.
+/// Relative uncertainty of an opening load: of the drag area and of the scatter of repeated openings (opening_scatter), as
+/// independent parts.
 struct LoadUncertainty {
   double value = 0;
   std::string from;

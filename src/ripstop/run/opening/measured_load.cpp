@@ -86,9 +86,7 @@ double best_shift(const LoadRecord& computed, const LoadRecord& measured) {
 
 LoadRecord computed_record(const std::filesystem::path& run) {
   if (!finished_result(run) || !std::filesystem::exists(run / "history.csv"))
-    throw Error(ExitCode::usage, fmt::format("{0}: contains no finished run of ripstop inflate; compute one "
-                                             "with: ripstop inflate CASE --out {0}",
-                                             run.string()));
+    refuse_unfinished(run, "inflate");
   const CsvTable table = read_csv(run / "history.csv");
   return {table.column("time_s"), table.column("load_mean_n")};
 }

@@ -64,9 +64,7 @@ nlohmann::json opening_result(const fs::path& folder, const Settings& resolved) 
   const std::optional<std::string> text = finished_result(folder);
   auto result = text ? nlohmann::json::parse(*text, nullptr, false) : nlohmann::json();
   if (!result.is_object() || !result.contains("peak_load_n"))
-    throw Error(ExitCode::usage, fmt::format("{0}: contains no finished run of ripstop inflate; compute one "
-                                             "with: ripstop inflate CASE --out {0}",
-                                             folder.string()));
+    refuse_unfinished(folder, "inflate");
   const double here = nominal_area(resolved.parachute()),
                there = nominal_area(settings_of_run(folder).parachute());
   if (std::abs(here - there) > 1e-6 * here)

@@ -140,36 +140,36 @@ void find_opening(const SizeRequest& request, SizeResult& r) {
   r.opening_load_low = load.stages.front().lowest, r.opening_load = load.stages.front().highest;
   r.air_source = std::move(load.air_source);
   r.design_load = load.design_load, r.design_load_from = std::move(load.design_load_from);
-  LoadUncertainty uncertainty = load_uncertainty(
-      {r.drag_coefficient, r.drag_basis + " coefficient", load.drag_uncertainty, r.drag_basis});
-  r.load_uncertainty = uncertainty.value, r.load_uncertainty_from = std::move(uncertainty.from);
-  r.largest_load = (1 + r.load_uncertainty) * r.design_load;
+  r.load_uncertainty = load.load_uncertainty;
+  r.load_uncertainty_from =
+      load_uncertainty({r.drag_coefficient, r.drag_basis + " coefficient", load.drag_uncertainty, r.drag_basis}).from;
+  r.highest_design_load = load.highest_design_load;
   r.line_load_factor = load.line_load_factor;
   r.margins = std::move(load.margins);
   r.load_warnings = std::move(load.warnings);
   r.opening = std::move(load.stages), r.flight = std::move(load.flight);
 }
 
-/// Lines and tape for the largest load of the present size. They never become lighter from one call to the next, so that
+/// Lines and tape for the highest design load of the present size. They never become lighter from one call to the next, so that
 /// the choice ends. Returns whether something changed.
 bool choose_materials(const std::vector<Line>& lines, SizeResult& r, double& least_line,
                       double& least_riser) {
   Design& design = r.given.parachute;
   const Design before = design;
-  const Line& line = line_for(r.given, r.largest_load, lines, LineMember::line, least_line);
+  const Line& line = line_for(r.given, r.highest_design_load, lines, LineMember::line, least_line);
   least_line = line.linear_density_kg_m;
   design.lines.material = design.riser.material = line.name;
   r.given.materials.insert_or_assign(line.name, line);
   if (design.riser.length_m > 0) {
-    const Line& riser = line_for(r.given, r.largest_load, lines, LineMember::riser, least_riser);
+    const Line& riser = line_for(r.given, r.highest_design_load, lines, LineMember::riser, least_riser);
     least_riser = riser.linear_density_kg_m;
     design.riser.material = riser.name;
     r.given.materials.insert_or_assign(riser.name, riser);
   }
-  TapeMaterial tape = tape_for(r.given, r.line_load_factor * r.largest_load / design.lines.count);
+  TapeMaterial tape = tape_for(r.given, r.line_load_factor * r.highest_design_load / design.lines.count);
   design.tape.material = tape.name;
   r.tape_material = std::move(tape.name), r.tape_used = tape.used;
-  r.tape_source = std::move(tape.from) + " under the largest load";
+  r.tape_source = std::move(tape.from) + " under the highest design load";
   return before.lines.material != design.lines.material || before.riser.material != design.riser.material ||
          before.tape.material != design.tape.material;
 }
@@ -222,7 +222,7 @@ bool add_lines(Design& example, double times) {
 }
 
 double largest_line_used(const SizeResult& r) {
-  return used_of(r.given, r.largest_load, suspension_line(r.given), LineMember::line);
+  return used_of(r.given, r.highest_design_load, suspension_line(r.given), LineMember::line);
 }
 
 /// Lines and tape of the library that hold; where none does, more gores and lines share the load.
@@ -241,14 +241,6 @@ void find_parachute(const SizeRequest& request, SizeResult& r) {
 
 void warn(const SizeRequest& request, SizeResult& r) {
   r.warnings = r.load_warnings;
-  if (const Margin* weak = r.margins ? weakest(*r.margins) : nullptr;
-      weak && *weak->margin >= 0 && *r.smallest_margin < 0)
-    r.warnings.push_back(fmt::format(
-        "under the largest load of {} N, the design load with its uncertainty of {:.0f} %, the {} "
-        "exceeds its allowable load (margin of safety {}): the fastest safe deployment "
-        "(ripstop load --fastest) is slower than {:g} m/s; use a stronger material",
-        rounded(r.largest_load), 100 * r.load_uncertainty, r.smallest_margin_member,
-        margin_text(*r.smallest_margin), r.deployment_speed));
   const StandardAir air = standard_air(r.height);
   const double reynolds = r.density * request.descent_rate * r.nominal_diameter / air.viscosity;
   for (const std::string& text : outside_range(
@@ -279,7 +271,7 @@ void describe_parachute(const SizeRequest& request, SizeResult& r) {
   const PartMasses masses = parachute_masses(resolved);
   r.cloth_mass = masses.cloth, r.tape_mass = masses.tape, r.line_mass = masses.lines + masses.riser;
   r.parachute_mass = masses.total;
-  const Margins largest = load_margins(resolved, r.largest_load);
+  const Margins largest = load_margins(resolved, r.highest_design_load);
   if (const Margin* least = weakest(largest))
     r.smallest_margin = least->margin, r.smallest_margin_member = least->member;
   if (r.handbook_drag_coefficient) {
@@ -332,7 +324,7 @@ void take_coefficient(const SizeRequest& request, const FamilyDrag& drag, SizeRe
                lower = drag.flown ? flown - sure * drag.flown->standard_error : 0;
   const auto of_flight = [&](double value, const char* how) {
     r.drag_basis = "descent", r.drag_coefficient = value;
-    r.drag_source = fmt::format("in descent (flown): {:.3f} +- {:.3f} over {} half-swings{}; {}", flown,
+    r.drag_source = fmt::format("in descent (computed free flight): {:.3f} +- {:.3f} over {} half-swings{}; {}", flown,
                                 drag.flown->standard_error, drag.flown->half_swings, how, drag.flown->made);
   };
   if (request.drag_coefficient_on == DragReference::projected && !request.drag_coefficient)

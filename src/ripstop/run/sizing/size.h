@@ -108,12 +108,12 @@ struct SizeResult {
   std::string design_load_from;
   double load_uncertainty = 0;  // of it, relative
   std::string load_uncertainty_from;
-  double largest_load = 0;  // with its uncertainty: lines, riser, and tape or hem are chosen for it [N]
-  std::optional<double> smallest_margin;  // of safety, of the weakest member under the largest load
+  double highest_design_load = 0;  // with its uncertainty: lines, riser, and tape or hem are chosen for it [N]
+  std::optional<double> smallest_margin;  // of safety, of the weakest member under the highest design load
   std::string smallest_margin_member;
   double line_load_factor = 1;     // largest line load over an equal share
   std::optional<Margins> margins;  // of lines and riser under the design load
-  double line_used = 0;            // utilisation of the weakest line under the largest load
+  double line_used = 0;            // utilisation of the weakest line under the highest design load
   double tape_used = 0;            // the same of the tape, or of the hem in its place
   std::vector<SizeCheck> checks;
   std::vector<StageLoads> opening;                   // by every method
@@ -162,7 +162,7 @@ void each_member(T& r, Visit&& visit) {
   visit("design_load_from", r.design_load_from);
   visit("load_uncertainty", r.load_uncertainty);
   visit("load_uncertainty_from", r.load_uncertainty_from);
-  visit("largest_load_n", r.largest_load);
+  visit("highest_design_load_n", r.highest_design_load);
   visit("smallest_margin_of_safety", r.smallest_margin);
   visit("smallest_margin_member", r.smallest_margin_member);
   visit("line_load_factor", r.line_load_factor);

@@ -47,7 +47,7 @@ std::string comment_on(const std::string& key, const SizeResult& r) {
   if (key == "vent_diameter_m")
     return fmt::format("{:.2f} % of the area", 100 * r.vent_area / r.nominal_area);
   if (key == "lines.material")
-    return fmt::format("utilisation {:.0f} % under the largest load", 100 * r.line_used);
+    return fmt::format("utilisation {:.0f} % under the highest design load", 100 * r.line_used);
   if (key == "tape.material") return r.tape_source;
   return "";
 }
@@ -117,11 +117,11 @@ std::string size_case_text(const SizeRequest& request, const SizeResult& r) {
   text += fmt::format(
       "# Parachute {:.3g} kg: cloth {:.3g}, tape {:.3g}, lines {:.3g}; packed {:.3g} litres at {:g} kg/m3.\n"
       "# Design load {:.0f} N for a payload of {:g} kg at {:g} m/s: {} (ripstop load).\n"
-      "# Largest load {:.0f} N, with the uncertainty of {:.0f} %: {}.\n"
+      "# Highest design load {:.0f} N, with the uncertainty of {:.0f} %: {}.\n"
       "title = \"{}\"\n\n",
       r.parachute_mass, r.cloth_mass, r.tape_mass, r.line_mass, 1000 * r.packed_volume,
       request.packing_density, r.design_load, r.payload_mass, r.deployment_speed, r.design_load_from,
-      r.largest_load, 100 * r.load_uncertainty, r.load_uncertainty_from, r.given.title);
+      r.highest_design_load, 100 * r.load_uncertainty, r.load_uncertainty_from, r.given.title);
   text += parachute_text(r);
   text += fmt::format(
       "\n[payload]  # instead of a speed: ripstop steady computes the speed at which drag equals weight\n"

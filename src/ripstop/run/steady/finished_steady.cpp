@@ -61,12 +61,7 @@ FinishedSteady finished_steady(const std::filesystem::path& folder) {
         fmt::format("{}: is a file; the folder of a finished run is required: compute one with ripstop "
                     "steady {} --out runs/{}, and give that folder",
                     folder.string(), folder.string(), folder.stem().string()));
-  if (!text || !is_of_steady(*text))
-    throw Error(
-        ExitCode::usage,
-        fmt::format(
-            "{}: contains no finished run of ripstop steady; compute one with: ripstop steady CASE --out {}",
-            folder.string(), folder.string()));
+  if (!text || !is_of_steady(*text)) refuse_unfinished(folder, "steady");
   const SteadyResult result = steady_result_from_json(*text);
   require_converged(result, folder.string());
   const Settings resolved = settings_of_run(folder);

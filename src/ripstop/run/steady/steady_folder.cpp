@@ -262,10 +262,7 @@ struct RunOfFolder {
 
 RunOfFolder run_of_folder(const fs::path& folder) {
   const std::optional<std::string> text = finished_result(folder);
-  if (!text)
-    throw Error(ExitCode::usage, fmt::format("{0}: contains no finished run of ripstop steady; compute one "
-                                             "with: ripstop steady CASE --out {0}",
-                                             folder.string()));
+  if (!text) refuse_unfinished(folder, "steady");
   return {settings_of_run(folder), steady_result_from_json(*text)};
 }
 
@@ -339,10 +336,7 @@ void require_same_parachute(const Settings& resolved, const std::string& where, 
 
 SteadyState final_state(const fs::path& folder) {
   const fs::path checkpoint = folder / "checkpoint";
-  if (!fs::exists(folder / "result.json"))
-    throw Error(ExitCode::usage, fmt::format("{0}: contains no finished run of ripstop steady; compute one "
-                                             "with: ripstop steady CASE --out {0}",
-                                             folder.string()));
+  if (!fs::exists(folder / "result.json")) refuse_unfinished(folder, "steady");
   if (!fs::exists(checkpoint / "current"))
     throw Error(ExitCode::bad_data, fmt::format("{}: is missing; compute the run again with --fresh",
                                                 (checkpoint / "current").string()));
