@@ -60,7 +60,8 @@ void print(const Settings& resolved, const CaseSummary& s, std::size_t warnings)
   fmt::print("{}\n", resolved.title().empty() ? resolved.file().string() : resolved.title());
   row("nominal area",
       fmt::format("{:.4f} m2{}", s.nominal_area, given ? " (given)" : " (definition of the canopy type)"));
-  row("cloth", fmt::format("{:.4f} m2 finished (without allowances), {:.4f} m2 as meshed", s.computed_area, s.cloth_area));
+  row("cloth", fmt::format("{:.4f} m2 finished (without allowances), {:.4f} m2 as meshed", s.computed_area,
+                           s.cloth_area));
   row("open area", fmt::format("{:.2f} % geometric porosity: vent {:.4f} m2, slots and gaps {:.4f} m2",
                                100 * s.geometric_porosity, s.vent_area, s.slot_area));
   row("mass",

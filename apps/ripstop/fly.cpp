@@ -206,8 +206,10 @@ void add_fly(CLI::App& app, int& status) {
                  "Height of the payload above the ground at the start [m]; the flight ends at the ground",
                  options->overrides);
   add_key_option(*command, "--wind", "flight.wind.speed_m_s", "Speed of the wind [m/s]", options->overrides);
-  add_key_option(*command, "--cells-across", "flight.cells_across",
-                 "Number of flow cells across the nominal diameter (ripstop stability: across the projected one)", options->overrides);
+  add_key_option(
+      *command, "--cells-across", "flight.cells_across",
+      "Number of flow cells across the nominal diameter (ripstop stability: across the projected one)",
+      options->overrides);
   add_key_number(*command, "--speed", "flow.speed_m_s", options->overrides.speed,
                  "Airspeed of the payload at deployment, with --deploy [m/s]");
   CLI::Option* deploy = command->add_flag_callback(

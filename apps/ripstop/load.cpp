@@ -55,7 +55,8 @@ void print_stage(const StageLoads& s, const LoadResult& r, const std::string& kn
       s.begin, s.speed, s.path_angle, s.height, s.density, s.drag_area_before, s.drag_area, s.filling_time,
       s.filling_constant,
       share < 0.9995
-          ? fmt::format(" x {:.3g} (square root of the drag area that the stage adds over the full one)", share)
+          ? fmt::format(" x {:.3g} (square root of the drag area that the stage adds over the full one)",
+                        share)
           : "",
       s.ballistic_parameter, s.mass_ratio);
   const int width = both_units() ? 24 : 10;
@@ -82,9 +83,7 @@ void print_stage(const StageLoads& s, const LoadResult& r, const std::string& kn
   else if (applicable == 1)
     print_text("  one applicable method: {:.1f} N\n", s.lowest);
   else
-    print_text(
-        "  no method estimates this opening; the infinite-mass load is an upper bound on a horizontal "
-        "path\n");
+    print_text("  no method estimates this opening; use the infinite-mass load\n");
 }
 
 void print_snatch(const SnatchResult& s) {
@@ -116,8 +115,10 @@ void print_fastest(const FastestResult& r, const fs::path& folder) {
   print_text("  at line stretch: path {:.3g} deg below the horizon, {}\n", r.path_angle,
              air_text(r.height, r.density, r.air_source));
   print_text("  FASTEST SAFE DEPLOYMENT {}\n", safe_speed_text(r.design()));
-  print_text("  margin of safety {:g} of tape or hem, lines, riser and hardware (the cloth is not checked); uncertainty of the load {:.0f} %: {}\n\n", r.margin,
-             100 * r.load_uncertainty, r.load_uncertainty_from);
+  print_text(
+      "  margin of safety {:g} of tape or hem, lines, riser and hardware (the cloth is not checked); "
+      "uncertainty of the load {:.0f} %: {}\n\n",
+      r.margin, 100 * r.load_uncertainty, r.load_uncertainty_from);
   for (const SafeSpeed& s : r.methods)
     print_text("  {:<18} {}; load {:.1f} N{}\n", s.method, safe_speed_text(s), s.load,
                s.applies                     ? ""
@@ -145,10 +146,12 @@ void print_result(const LoadResult& r, const fs::path& folder) {
       "hardware for this load\n",
       r.highest_design_load, 100 * r.load_uncertainty, r.load_uncertainty_from);
   if (r.design_method == infinite_mass_method)
-    print_text("  The design load does not depend on the filling. Methods with a smaller load assume a filling "
-               "distance.\n");
+    print_text(
+        "  The design load is computed without a filling distance. Methods with a smaller load assume "
+        "one.\n");
   print_text("  The load of an \"estimate\" is expected if the canopy fills as that method assumes.\n");
-  const bool snatch = r.snatch && r.snatch->largest() > r.design_load;  // the margins are then those of the snatch load
+  const bool snatch =
+      r.snatch && r.snatch->largest() > r.design_load;  // the margins are then those of the snatch load
   print_margins(r.margins, snatch ? std::nullopt : std::optional(r.highest_design_load / r.design_load));
   print_row("required hardware", hardware_text(r.hardware));
   std::string caution;

@@ -50,10 +50,11 @@ void print_result(const SizeResult& r, const fs::path& file, const fs::path& pag
                       ? fmt::format("; Knacke, in descent: {:.2f} to {:.2f}",
                                     r.handbook_drag_coefficient->at(0), r.handbook_drag_coefficient->at(1))
                       : ""));
-  row("C_D of the family", fmt::format("axial {:.3f}, in descent {}", r.axial_coefficient,
-                                       r.flown_coefficient ? fmt::format("{:.3f} +- {:.3f} (computed free flight)",
-                                                                         *r.flown_coefficient, *r.flown_error)
-                                                           : std::string("not computed for this family and cloth")));
+  row("C_D of the family",
+      fmt::format("axial {:.3f}, in descent {}", r.axial_coefficient,
+                  r.flown_coefficient ? fmt::format("{:.3f} +- {:.3f} (computed free flight)",
+                                                    *r.flown_coefficient, *r.flown_error)
+                                      : std::string("not computed for this family and cloth")));
   row("nominal diameter",
       fmt::format("{:.3f} m{}, S0 {:.4g} m2", r.nominal_diameter,
                   r.handbook_diameter ? fmt::format(" ({:.2f} to {:.2f} m by the handbook)",
@@ -71,9 +72,10 @@ void print_result(const SizeResult& r, const fs::path& file, const fs::path& pag
   row("DESIGN LOAD", fmt::format("{:.0f} N at {:.3g} m/s: {}; largest line load {:.2f} times the mean",
                                  r.design_load, r.deployment_speed, r.design_load_from, r.line_load_factor));
   if (r.smallest_margin)
-    row("highest design load", fmt::format("{:.0f} N with the uncertainty of {:.0f} % ({}): margin of safety {}, {}",
-                                    r.highest_design_load, 100 * r.load_uncertainty, r.load_uncertainty_from,
-                                    margin_text(*r.smallest_margin), r.smallest_margin_member));
+    row("highest design load",
+        fmt::format("{:.0f} N with the uncertainty of {:.0f} % ({}): margin of safety {}, {}",
+                    r.highest_design_load, 100 * r.load_uncertainty, r.load_uncertainty_from,
+                    margin_text(*r.smallest_margin), r.smallest_margin_member));
   row("opening load", fmt::format("{:.0f} to {:.0f} N by the applicable methods (see ripstop load)",
                                   r.opening_load_low, r.opening_load));
   if (!r.opening.front().caution.empty()) row("", r.opening.front().caution);

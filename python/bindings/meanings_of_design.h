@@ -17,6 +17,7 @@ Load.ludtke_exponent: the same exponent in Ludtke's method
 Load.filling_from: source of filling constant and exponent
 Load.stages: loads of each reefed stage and of the open canopy
 Load.design_drag_coefficient: drag coefficient on S0 of the infinite-mass load: at least the handbook's, unless C_x is given
+Load.design_load_caution: condition in which a computed opening has a larger load; empty: none
 Load.design_method: method of the design load; empty: a measured load
 Load.required_hardware: strength that each part of the hardware needs under the required load
 HardwareNeed.rated_load_n: required rated load

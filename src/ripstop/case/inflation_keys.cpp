@@ -82,9 +82,10 @@ void describe_mesh(Fields& fields, InflationSettings& inflation) {
               "Target rest length of the springs of a line in the opening. Stiff lines limit its time step.")
       .absent("of [parachute.mesh]");
   fields
-      .number("cloth_compression", inflation.cloth_compression, from(0).up_to(1),
-              "Stiffness of cloth and tape under compression in an opening, as a share of K_1. Cloth with this "
-              "stiffness does not wrinkle. 1: spring of [NFM].")
+      .number(
+          "cloth_compression", inflation.cloth_compression, from(0).up_to(1),
+          "Stiffness of cloth and tape under compression in an opening, as a share of K_1. Cloth with this "
+          "stiffness does not wrinkle. 1: spring of [NFM].")
       .absent("cloth and tape wrinkle, at their buckling strain or 1e-6");
   fields.number("contact_pa", inflation.contact_pa, from(0).up_to(1e6),
                 "Contact pressure that would compress two layers of nodes into one; 0: no contact.");

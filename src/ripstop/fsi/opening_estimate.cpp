@@ -19,8 +19,8 @@ OpeningEstimate opening_estimate(const Design& design, std::optional<double> dra
   const double full = nominal_area(design) * dynamic_pressure, least = design_drag_coefficient(design, 0);
   if (*drag < least * full) {
     estimate.drag = least * full;
-    estimate.drag_from = fmt::format("C_D {:.2f} (handbook, in descent); {}: {:.1f} N",
-                                     least, estimate.drag_from, *drag);
+    estimate.drag_from =
+        fmt::format("C_D {:.2f} (handbook, in descent); {}: {:.1f} N", least, estimate.drag_from, *drag);
   }
   if (known.opening_coefficient > 0) estimate.load = known.opening_coefficient * *estimate.drag;
   return estimate;

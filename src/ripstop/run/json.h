@@ -102,8 +102,9 @@ T from_cbor(const std::string& bytes, int format, const char* what) {
   try {
     const nlohmann::json j = nlohmann::json::from_cbor(bytes);
     if (j.at("format") != format)
-      throw Error(ExitCode::bad_data,
-                  fmt::format("{} of a different version of Ripstop; compute the run again: the command that made it, with --fresh", what));
+      throw Error(ExitCode::bad_data, fmt::format("{} of a different version of Ripstop; compute the run "
+                                                  "again: the command that made it, with --fresh",
+                                                  what));
     return j.get<T>();
   } catch (const nlohmann::json::exception& error) {
     throw Error(ExitCode::bad_data, fmt::format("not {}: {}; the file is damaged or of another version", what,

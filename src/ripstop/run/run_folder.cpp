@@ -205,10 +205,11 @@ std::optional<std::string> finished_result(const fs::path& folder) {
 void refuse_unfinished(const std::filesystem::path& folder, const char* command) {
   // The folder of something else is no place for the run.
   const bool free = !std::filesystem::exists(folder) || std::filesystem::is_empty(folder);
-  throw Error(ExitCode::usage,
-              fmt::format("{}: contains no finished run of ripstop {}; {}compute one with: ripstop {} CASE --out {}",
-                          folder.string(), command, free ? "" : "give the folder of one, or ", command,
-                          free ? folder.string() : "runs/NAME"));
+  throw Error(
+      ExitCode::usage,
+      fmt::format("{}: contains no finished run of ripstop {}; {}compute one with: ripstop {} CASE --out {}",
+                  folder.string(), command, free ? "" : "give the folder of one, or ", command,
+                  free ? folder.string() : "runs/NAME"));
 }
 
 }  // namespace ripstop::inline run

@@ -138,9 +138,9 @@ TEST(Load, ListsTheMethodsAndWhichApply) {
   }
   expect_judged(stage);
   EXPECT_TRUE(method(stage, "trajectory").applies);
-  // The design load is the load of one of the methods, and hardware of that rated load is sufficient.
+  // The design load is the load of one of the methods; the hardware also carries its uncertainty.
   EXPECT_EQ(method(stage, r.design_method).load, r.design_load);
-  EXPECT_EQ(r.hardware.rated, r.design_load);
+  EXPECT_EQ(r.hardware.rated, r.highest_design_load);
   LoadRequest measured = request();
   measured.measured_load = 500;
   EXPECT_EQ(run_load(resolve(flat_circular()), measured).design_method, "");
@@ -288,7 +288,7 @@ TEST(Load, WithASnatchLoadAboveTheDesignLoadTheHardwareIsForTheSnatchLoad) {
   const LoadResult slow = run_load(resolve(flat_circular()), asked);
   ASSERT_LT(slow.snatch->load, slow.design_load);
   EXPECT_FALSE(warned(slow));
-  EXPECT_EQ(slow.hardware.rated, slow.design_load);
+  EXPECT_EQ(slow.hardware.rated, slow.highest_design_load);
   asked.snatch_speed = 60;
   const LoadResult fast = run_load(resolve(flat_circular()), asked);
   ASSERT_GT(fast.snatch->load, fast.design_load);
@@ -345,7 +345,7 @@ TEST(Load, EveryMethodIsAskedInTheConditionsOfItsStage) {
     }
     EXPECT_EQ(method(stage, "infinite mass").applies, !slowed);
     EXPECT_EQ(method(stage, "infinite mass").note,
-              slowed ? "upper bound on a horizontal path: the speed decreases during filling"
+              slowed ? "constant speed is assumed; with this payload the speed decreases during filling"
                      : "the speed decreases little during filling");
     EXPECT_EQ(method(stage, "momentum-impulse")
                       .note.find("assumes filling from zero drag area; the speed after filling is ") == 0,

@@ -80,8 +80,8 @@ TEST(SizeChoices, AStrongerLineIsPreferredWhereTheLineOf2GramsAMetreIsTooWeak) {
   const SizeResult usual = run_size(asked);
   EXPECT_EQ(usual.line_material, "spectra-line");
   const double allowed = 3180 * 0.8 * 0.95 * 0.95 * 0.95;
-  EXPECT_NEAR(usual.line_used, 1.5 * usual.line_load_factor * usual.highest_design_load / usual.line_count / allowed,
-              1e-9);
+  EXPECT_NEAR(usual.line_used,
+              1.5 * usual.line_load_factor * usual.highest_design_load / usual.line_count / allowed, 1e-9);
   asked.deployment_speed = 36;
   const SizeResult fast = run_size(asked);
   EXPECT_EQ(fast.line_material, "spectra-line-1000-lbf");
@@ -215,9 +215,10 @@ TEST(SizeChoices, ItsCaseFileHasItsNumbersInComments) {
       r.parachute_mass, r.cloth_mass, r.tape_mass, r.line_mass, 1000 * r.packed_volume,
       wanted().packing_density));
   has(fmt::format("# Design load {:.0f} N for a payload of 2.4 kg at 20 m/s: infinite mass", r.design_load));
-  has(fmt::format(
-      "# Highest design load {:.0f} N, with the uncertainty of 18 %: drag area 10 % (axial coefficient), scatter",
-      r.highest_design_load));
+  has(
+      fmt::format("# Highest design load {:.0f} N, with the uncertainty of 18 %: drag area 10 % (axial "
+                  "coefficient), scatter",
+                  r.highest_design_load));
   has(fmt::format("[inflation]\ndrag_coefficient = {}", r.drag_coefficient));
   has("speed_m_s = 5  # start value of the iteration");
 }

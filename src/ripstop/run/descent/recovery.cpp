@@ -318,6 +318,8 @@ RecoveryStage stage_of(const RecoveryCanopy& canopy, std::size_t i, const std::v
     warnings.push_back(fmt::format("{}: {}", canopy.name, text));
   for (const std::string& text : hardware_warnings(canopy.resolved))
     warnings.push_back(fmt::format("{}: {}", canopy.name, text));
+  if (!load.design_load_caution.empty())
+    warnings.push_back(fmt::format("{}: {}", canopy.name, load.design_load_caution));
   for (const std::string& text : margin_warnings(s.margins))
     warnings.push_back(fmt::format("{}: {}", canopy.name, text));
   for (const std::string& text :

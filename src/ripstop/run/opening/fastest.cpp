@@ -226,6 +226,8 @@ FastestResult run_fastest(const Settings& resolved, const LoadRequest& request, 
   r.snatch = loads.snatch(r.design().unsafe_at ? slowest : r.design().lowest.value_or(fastest_deployment));
   if (r.snatch && r.snatch->other_load) r.warnings.push_back(two_snatch_loads(*r.snatch));
   r.advice = advice_of(r, fast.filling_constant);
+  if (r.design_method == infinite_mass_method && !fast.design_load_caution.empty())
+    r.warnings.push_back(fast.design_load_caution);
   for (std::string& text : strain_warnings(resolved, 0)) r.warnings.push_back(std::move(text));
   for (std::string& text : hardware_warnings(resolved)) r.warnings.push_back(std::move(text));
   if (r.design().unsafe_at)

@@ -29,4 +29,8 @@ std::vector<MethodLoad> handbook_methods(const Settings& resolved);
 std::optional<std::string> handbook_disagreement(double computed, std::optional<double> distance,
                                                  const std::vector<MethodLoad>& methods);
 
+/// Warning if the peak `computed` [N] of a coupled opening is above the `infinite_mass` load of the handbook [N] by more
+/// than opening_scatter; else nothing.
+std::optional<std::string> above_infinite_mass(double computed, double infinite_mass);
+
 }  // namespace ripstop::inline run

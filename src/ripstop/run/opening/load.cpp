@@ -124,12 +124,10 @@ std::string outside_of_methods(const OpeningConditions& c, const LoadRequest& re
 std::string caution_on_filling(const LoadRequest& request, double nominal_diameter) {
   if (!of_handbook(request)) return "";
   const std::string text = joined(outside_range(filling_model, {{"nominal diameter", nominal_diameter}}));
-  return text.empty()
-             ? ""
-             : text +
-                   "; a small canopy fills within 1 to 20 D0, depending on its deployment (set it "
-                   "with --filling-constant); the load of a canopy that opens almost at once approaches the "
-                   "infinite-mass load";
+  return text.empty() ? ""
+                      : text +
+                            "; a small canopy fills within 1 to 20 D0, depending on its deployment (set it "
+                            "with --filling-constant); the load of a canopy that fills faster is larger";
 }
 
 /// `r`: coefficients that are known already.
@@ -147,8 +145,9 @@ void add_methods(const OpeningConditions& c, const LoadResult& r, double integra
   stage.methods.push_back(
       {infinite_mass_method, r.design_drag_coefficient / r.drag_coefficient * infinite_mass_load(c).load, 0,
        x.factor > hardly_slowed,
-       x.factor > hardly_slowed ? "the speed decreases little during filling"
-                                : "upper bound on a horizontal path: the speed decreases during filling"});
+       x.factor > hardly_slowed
+           ? "the speed decreases little during filling"
+           : "constant speed is assumed; with this payload the speed decreases during filling"});
   OpeningConditions by_ludtke = c;
   by_ludtke.exponent = r.ludtke_exponent;
   const OpeningLoad pflanz = pflanz_load(c), ludtke = ludtke_load(by_ludtke);
@@ -293,6 +292,24 @@ void fly_record(const OpeningRecord& record, const LoadRequest& request, LoadRes
   compare_methods(stage);
 }
 
+/// Coupled openings of solid canopies of tight cloth have up to this many times the infinite-mass load where the payload
+/// hardly decelerates, and more than it below this mass ratio (docs/validation/inflation.md, Heavy payloads).
+constexpr double computed_over_handbook = 2.5, heavy_payload = 1;
+
+std::string heavy_payload_caution(const Settings& resolved, const LoadResult& r) {
+  const bool solid = known_filling(resolved.parachute().canopy.family().type).ludtke_exponent > 2;
+  const double ratio = r.stages.back().mass_ratio;
+  if (!solid || ratio >= heavy_payload) return {};
+  return fmt::format(
+      "the payload is heavy for this canopy (mass ratio {:.2g}): at mass ratios below {:g}, coupled openings "
+      "of solid "
+      "canopies that fill within two nominal diameters have up to {:g} times the infinite-mass load of the "
+      "handbook "
+      "(docs/validation/inflation.md). Compute the opening (ripstop inflate CASE --air coupled --set "
+      "inflation.mass=payload) and give it with --opening, or measure the load",
+      ratio, heavy_payload, computed_over_handbook);
+}
+
 std::string scatter_text() {
   return fmt::format("scatter of repeated openings {:.0f} %", 100 * opening_scatter);
 }
@@ -300,7 +317,8 @@ std::string scatter_text() {
 /// The infinite-mass load of the stage with the highest, or that of a method that applies and has more (a payload that is
 /// accelerated on its path), unless a measurement or a computed opening replaces it. A computed opening with a limit
 /// replaces only a smaller load.
-void choose_design_load(const Settings& resolved, const LoadRequest& request, const DragCoefficient& drag, LoadResult& r) {
+void choose_design_load(const Settings& resolved, const LoadRequest& request, const DragCoefficient& drag,
+                        LoadResult& r) {
   for (const StageLoads& stage : r.stages)
     r.design_load = std::max(r.design_load, stage.methods.front().load);
   r.design_load_from = "infinite mass, C_x C_D S0 q", r.design_method = infinite_mass_method;
@@ -320,9 +338,11 @@ void choose_design_load(const Settings& resolved, const LoadRequest& request, co
     r.design_method = computed_method;
   }
   r.line_load_factor = experience(resolved.parachute()).line_load_factor;
-  LoadUncertainty uncertainty = request.measured_load
-                                    ? LoadUncertainty{opening_scatter, scatter_text()}
-                                    : load_uncertainty(drag);
+  if (r.design_method == infinite_mass_method && !request.opening_coefficient)
+    r.design_load_caution = heavy_payload_caution(resolved, r);
+  if (!r.design_load_caution.empty()) r.warnings.push_back(r.design_load_caution);
+  LoadUncertainty uncertainty =
+      request.measured_load ? LoadUncertainty{opening_scatter, scatter_text()} : load_uncertainty(drag);
   r.load_uncertainty = uncertainty.value, r.load_uncertainty_from = std::move(uncertainty.from);
   r.highest_design_load = (1 + r.load_uncertainty) * r.design_load;
   const double mach = request.speed / standard_air(r.height).sound_speed;
@@ -338,14 +358,16 @@ void take_required_load(const Settings& resolved, LoadResult& r) {
   r.hardware = hardware_need(r.required_load, resolved.margins());
   for (const std::string& text : margin_warnings(r.margins)) r.warnings.push_back(text);
   const Margins highest = load_margins(resolved, r.highest_design_load, largest_snatch);
-  if (const Margin *usual = weakest(*r.margins), *least = weakest(highest);
+  if (const Margin* usual = weakest(*r.margins), *least = weakest(highest);
       usual && *usual->margin >= 0 && *least->margin < 0)
-    r.warnings.push_back(fmt::format(
-        "under the highest design load of {} N, which contains the uncertainty of {:.0f} %, the {} exceeds its "
-        "allowable load (margin of safety {}): the fastest safe deployment (ripstop load --fastest) is slower than "
-        "{:g} m/s; use a stronger material",
-        rounded(r.highest_design_load), 100 * r.load_uncertainty, least->member, margin_text(*least->margin),
-        r.speed));
+    r.warnings.push_back(
+        fmt::format("under the highest design load of {} N, which contains the uncertainty of {:.0f} %, the "
+                    "{} exceeds its "
+                    "allowable load (margin of safety {}): the fastest safe deployment (ripstop load "
+                    "--fastest) is slower than "
+                    "{:g} m/s; use a stronger material",
+                    rounded(r.highest_design_load), 100 * r.load_uncertainty, least->member,
+                    margin_text(*least->margin), r.speed));
   if (!r.snatch) return;
   for (const auto& [part, ratio] :
        {std::pair("a line", r.snatch->line_margin), std::pair("the riser", r.snatch->riser_margin)})

@@ -106,17 +106,19 @@ struct LoadResult {
   double design_drag_coefficient = 0;  // C_D of the infinite-mass load
   std::string drag_source, opening_source, filling_source;
   std::vector<StageLoads> stages;
-  double design_load = 0;               // load for which lines and riser are to be designed [N]
-  std::string design_load_from;         // measured, computed or infinite mass
-  std::string design_method;            // of a stage, whose load this is; empty: measured
-  double load_uncertainty = 0;          // of the design load, relative
+  double design_load = 0;           // load for which lines and riser are to be designed [N]
+  std::string design_load_from;     // measured, computed or infinite mass
+  std::string design_load_caution;  // where a computed opening can have more; empty: none
+  std::string design_method;        // of a stage, whose load this is; empty: measured
+  double load_uncertainty = 0;      // of the design load, relative
   std::string load_uncertainty_from;
-  double highest_design_load = 0;       // design load with its uncertainty [N]
-  double required_load = 0;             // of hardware: highest design load or larger snatch load [N]
-  HardwareNeed hardware;                // under it
-  double line_load_factor = 1;          // largest line load over an equal share, of the family
-  std::optional<Margins> margins;       // of tape or hem under the design load, of the others also under the snatch load
-  double peak_load = 0, peak_time = 0;  // of the trajectory [N], [s]
+  double highest_design_load = 0;  // design load with its uncertainty [N]
+  double required_load = 0;        // of hardware: highest design load or larger snatch load [N]
+  HardwareNeed hardware;           // under it
+  double line_load_factor = 1;     // largest line load over an equal share, of the family
+  std::optional<Margins>
+      margins;  // of tape or hem under the design load, of the others also under the snatch load
+  double peak_load = 0, peak_time = 0;     // of the trajectory [N], [s]
   std::optional<double> record_peak_load;  // of the trajectory with a computed opening's drag area [N]
   std::string
       record_limit;  // why it does not replace a larger design load; empty: it does; not in result.json
@@ -151,6 +153,7 @@ void each_member(T& r, Visit&& visit) {
   visit("stages", r.stages);
   visit("design_load_n", r.design_load);
   visit("design_load_from", r.design_load_from);
+  visit("design_load_caution", r.design_load_caution);
   visit("design_method", r.design_method);
   visit("load_uncertainty", r.load_uncertainty);
   visit("load_uncertainty_from", r.load_uncertainty_from);

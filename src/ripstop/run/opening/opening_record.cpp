@@ -63,8 +63,7 @@ Stream stream_of(const Settings& run, const fs::path& folder) {
 nlohmann::json opening_result(const fs::path& folder, const Settings& resolved) {
   const std::optional<std::string> text = finished_result(folder);
   auto result = text ? nlohmann::json::parse(*text, nullptr, false) : nlohmann::json();
-  if (!result.is_object() || !result.contains("peak_load_n"))
-    refuse_unfinished(folder, "inflate");
+  if (!result.is_object() || !result.contains("peak_load_n")) refuse_unfinished(folder, "inflate");
   const double here = nominal_area(resolved.parachute()),
                there = nominal_area(settings_of_run(folder).parachute());
   if (std::abs(here - there) > 1e-6 * here)

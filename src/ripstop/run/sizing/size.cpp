@@ -141,8 +141,9 @@ void find_opening(const SizeRequest& request, SizeResult& r) {
   r.air_source = std::move(load.air_source);
   r.design_load = load.design_load, r.design_load_from = std::move(load.design_load_from);
   r.load_uncertainty = load.load_uncertainty;
-  r.load_uncertainty_from =
-      load_uncertainty({r.drag_coefficient, r.drag_basis + " coefficient", load.drag_uncertainty, r.drag_basis}).from;
+  r.load_uncertainty_from = load_uncertainty({r.drag_coefficient, r.drag_basis + " coefficient",
+                                              load.drag_uncertainty, r.drag_basis})
+                                .from;
   r.highest_design_load = load.highest_design_load;
   r.line_load_factor = load.line_load_factor;
   r.margins = std::move(load.margins);
@@ -324,8 +325,9 @@ void take_coefficient(const SizeRequest& request, const FamilyDrag& drag, SizeRe
                lower = drag.flown ? flown - sure * drag.flown->standard_error : 0;
   const auto of_flight = [&](double value, const char* how) {
     r.drag_basis = "descent", r.drag_coefficient = value;
-    r.drag_source = fmt::format("in descent (computed free flight): {:.3f} +- {:.3f} over {} half-swings{}; {}", flown,
-                                drag.flown->standard_error, drag.flown->half_swings, how, drag.flown->made);
+    r.drag_source =
+        fmt::format("in descent (computed free flight): {:.3f} +- {:.3f} over {} half-swings{}; {}", flown,
+                    drag.flown->standard_error, drag.flown->half_swings, how, drag.flown->made);
   };
   if (request.drag_coefficient_on == DragReference::projected && !request.drag_coefficient)
     throw Error(ExitCode::usage, "--drag-coefficient-on projected needs --drag-coefficient");
