@@ -101,7 +101,7 @@ void add_compare_flight(CLI::App& app, int& status) {
       ->required();
   command->add_option("--case", options->case_file, "Case of the parachute (TOML)")->required();
   add_number(*command, "--mass", options->request.mass, key_range("payload.mass_kg"),
-             "Mass that descends, parachute included [kg]")
+             "Total mass that descends: payload and parachute [kg]")
       ->default_str("payload and parachute of the case");
   add_number(*command, "--mass-uncertainty", options->mass_uncertainty_percent, from(0).up_to(50),
              "Standard deviation of the mass [%]");

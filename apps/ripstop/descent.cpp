@@ -42,7 +42,7 @@ void print_result(const Descent& d) {
                                                d.known_coefficient->at(0), d.known_coefficient->at(1))
                                  : "");
   const int width = both_units() ? 18 : 15, speed_width = both_units() ? 38 : 20;
-  fmt::print("{:>{}} {:>13} {:>{}} {:>22}\n", "above sea level", width, "air density", "descent rate",
+  fmt::print("{:>{}} {:>13} {:>{}} {:>22}\n", "above sea level", width, "air density", "rate of descent",
              speed_width, fmt::format("time to {:g} m", d.ground));
   for (const DescentRow& row : d.rows)
     fmt::print("{:>{}} {:>13} {:>{}} {:>22}\n", in_units(fmt::format("{:.4g} m", row.height)), width,
@@ -64,7 +64,7 @@ int descent(const DescentArguments& options) {
 void add_descent(CLI::App& app, int& status) {
   auto options = std::make_shared<DescentArguments>();
   CLI::App* command =
-      app.add_subcommand("descent", "Compute terminal speed and descent time from a steady run or a flight");
+      app.add_subcommand("descent", "Compute rate of descent and descent time from a steady run or a flight");
   command->footer(
       "+- is the numerical uncertainty of the run (last change of the drag, averaging, force balance), or "
       "the standard\nerror of the flight. It does not include the error of the model.\n"

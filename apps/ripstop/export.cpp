@@ -101,8 +101,8 @@ void add_export(CLI::App& app, int& status) {
   add_number(*command, "--deployment-speed", options->deployment_speed, above(0).up_to(1000),
              "Airspeed at line stretch, which sets the filling time (lag) [m/s]")
       ->default_str(fmt::format(
-          "speed of the run; with [payload], {:g} times the rate of descent, but at least {:g} m/s",
-          deployment_over_descent, least_deployment_speed));
+          "speed of the run; with [payload], the larger of {:g} m/s and {:g} times the rate of descent",
+          least_deployment_speed, deployment_over_descent));
   add_number(*command, "--drogue-speed", options->drogue_speed, above(0).up_to(1000),
              "Airspeed at line stretch of the drogue [m/s]")
       ->default_str("as --deployment-speed");

@@ -203,7 +203,9 @@ void add_fly(CLI::App& app, int& status) {
                  "Angle between the vertical and the line from payload to canopy at the start [deg]",
                  options->overrides);
   add_key_option(*command, "--height", "flight.height_m",
-                 "Height of the payload above the ground at the start [m]; the flight ends at the ground",
+                 "Height of the payload above the ground at the start [m] (in other commands: above sea "
+                 "level); the flight ends at the "
+                 "ground",
                  options->overrides);
   add_key_option(*command, "--wind", "flight.wind.speed_m_s", "Speed of the wind [m/s]", options->overrides);
   add_key_option(

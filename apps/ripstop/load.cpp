@@ -51,16 +51,19 @@ void print_stage(const StageLoads& s, const LoadResult& r, const std::string& kn
       "\nstage from {:.2f} s: {:.3g} m/s on a path {:.3g} deg below the horizon, {:.4g} m above sea level, "
       "{:.4g} "
       "kg/m3, drag area {:.3g} to {:.3g} m2\n"
-      "  filling time {:.3g} s = {:.3g} D0 / speed{}, ballistic parameter {:.3g}, mass ratio {:.3g}\n",
+      "  filling time {:.3g} s = {:.3g} D0 / speed{}{}, ballistic parameter {:.3g}, mass ratio {:.3g}\n",
       s.begin, s.speed, s.path_angle, s.height, s.density, s.drag_area_before, s.drag_area, s.filling_time,
       s.filling_constant,
+      s.filling_constant < 0.9995 * r.filling_constant
+          ? fmt::format(" ({:.3g} D0 above 46 m/s, less below it)", r.filling_constant)
+          : "",
       share < 0.9995
           ? fmt::format(" x {:.3g} (square root of the drag area that the stage adds over the full one)",
                         share)
           : "",
       s.ballistic_parameter, s.mass_ratio);
   const int width = both_units() ? 24 : 10;
-  fmt::print("  {:<18} {:>{}} {:>8}  {:<8} {}\n", "method", "load", width, "time s", "use for", "reason");
+  fmt::print("  {:<18} {:>{}} {:>8}  {:<8} {}\n", "method", "load", width, "peak s", "use for", "reason");
   std::vector<std::string> notes;  // each is printed once, below the table
   for (const MethodLoad& m : s.methods) {
     const auto known = std::find(notes.begin(), notes.end(), m.note);
@@ -120,7 +123,9 @@ void print_fastest(const FastestResult& r, const fs::path& folder) {
       "uncertainty of the load {:.0f} %: {}\n\n",
       r.margin, 100 * r.load_uncertainty, r.load_uncertainty_from);
   for (const SafeSpeed& s : r.methods)
-    print_text("  {:<18} {}; load {:.1f} N{}\n", s.method, safe_speed_text(s), s.load,
+    print_text("  {:<18} {}; load {:.1f} N at {}{}\n", s.method, safe_speed_text(s), s.load,
+               s.unsafe_at ? fmt::format("{:.1f} m/s", *s.unsafe_at)
+                           : fmt::format("{:.1f} m/s", s.speed.value_or(fastest_deployment)),
                s.applies                     ? ""
                : s.method == r.design_method ? "; " + s.note
                                              : "; not applicable: " + s.note);
@@ -141,18 +146,28 @@ void print_result(const LoadResult& r, const fs::path& folder) {
       r.filling_exponent, r.ludtke_exponent, r.filling_source);
   print_text("  DESIGN LOAD {:.1f} N: {}; largest line load {:.2f} times the mean\n", r.design_load,
              r.design_load_from, r.line_load_factor);
-  print_text(
-      "  highest design load {:.1f} N, with the uncertainty of {:.0f} % ({}): select lines, tape, riser and "
-      "hardware for this load\n",
-      r.highest_design_load, 100 * r.load_uncertainty, r.load_uncertainty_from);
+  const bool snatch = r.snatch && r.snatch->largest() > r.design_load;
+  const bool snatch_governs = r.required_load > r.highest_design_load;
+  print_text("  highest design load {:.1f} N, with the uncertainty of {:.0f} %: {}\n", r.highest_design_load,
+             100 * r.load_uncertainty, r.load_uncertainty_from);
+  if (snatch_governs)
+    print_text(
+        "  Select tape for this load, and lines, riser and hardware for the snatch load of {:.1f} N.\n",
+        r.required_load);
+  else
+    print_text("  Select lines, tape, riser and hardware for this load{}.\n",
+               r.smallest_margin ? fmt::format(": margin of safety {}, {}", margin_text(*r.smallest_margin),
+                                               r.smallest_margin_member)
+                                 : "");
   if (r.design_method == infinite_mass_method)
     print_text(
         "  The design load is computed without a filling distance. Methods with a smaller load assume "
         "one.\n");
   print_text("  The load of an \"estimate\" is expected if the canopy fills as that method assumes.\n");
-  const bool snatch =
-      r.snatch && r.snatch->largest() > r.design_load;  // the margins are then those of the snatch load
-  print_margins(r.margins, snatch ? std::nullopt : std::optional(r.highest_design_load / r.design_load));
+  if (snatch)
+    print_margins(r.margins, {}, "the snatch load; tape or hem under the design load");
+  else
+    print_margins(r.margins, r.highest_design_load / r.design_load);
   print_row("required hardware", hardware_text(r.hardware));
   std::string caution;
   for (const StageLoads& stage : r.stages) {
@@ -162,8 +177,8 @@ void print_result(const LoadResult& r, const fs::path& folder) {
   print_text("\npeak load of the trajectory {:.1f} N after {:.3f} s\n", r.peak_load, r.peak_time);
   if (r.snatch) print_snatch(*r.snatch);
   if (r.steady_reached)
-    print_text("steady descent at {:.3g} m/s after {:.2f} s, {:.4g} m below line stretch\n", r.steady_speed,
-               r.steady_time, r.steady_drop);
+    print_text("steady descent at {:.3g} m/s; the trajectory ends {:.2f} s and {:.4g} m after line stretch\n",
+               r.steady_speed, r.steady_time, r.steady_drop);
   else
     print_text("steady descent is NOT reached above the ground: {:.3g} m/s at impact after {:.2f} s\n",
                r.steady_speed, r.steady_time);
@@ -232,7 +247,7 @@ void add_coefficients(CLI::App& command, LoadRequest& r) {
   add_number(command, "--packed-area", r.packed_drag_area, above(0).up_to(1e4),
              "Drag area of the packed canopy with its pilot chute, to compute that speed difference [m2]");
   add_number(command, "--payload-area", r.payload_drag_area, from(0).up_to(1e4),
-             "Drag area of the payload [m2]")
+             "Drag area of the payload or rocket body [m2]")
       ->default_str("payload.drag_area_m2 of the case");
 }
 

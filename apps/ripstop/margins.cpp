@@ -21,13 +21,13 @@ void print_stresses(double max_line_tension, const StressPeak& stress) {
 
 void print_payload(const SteadyResult& r) {
   if (!r.payload) return;
-  print_row("payload",
-            fmt::format("{:.4g} kg and parachute {:.3g} kg: drag / weight {:.4f}, {} speeds computed",
-                        r.payload->mass, r.payload->parachute_mass, r.payload->drag_over_weight,
-                        r.payload->speeds));
+  print_row("payload", fmt::format("{:.4g} kg and parachute {:.3g} kg: drag / weight {:.4f} after {} speeds",
+                                   r.payload->mass, r.payload->parachute_mass, r.payload->drag_over_weight,
+                                   r.payload->speeds));
 }
 
-void print_margins(const std::optional<Margins>& margins, std::optional<double> largest) {
+void print_margins(const std::optional<Margins>& margins, std::optional<double> largest,
+                   const std::string& under) {
   if (!margins) return;
   const auto under_largest = [&](const Margin& m) {
     return largest ? fmt::format(" ({:.1f} %)", 100 * *largest * *m.used) : "";
@@ -38,16 +38,18 @@ void print_margins(const std::optional<Margins>& margins, std::optional<double> 
                         m.used       ? fmt::format("{:.1f} %", 100 * *m.used) + under_largest(m)
                         : m.strength ? std::string("no load")
                                      : std::string("strength not known"));
-  print_row("utilisation", text + (largest ? "; under the design load (under the highest design load)" : ""));
+  print_row("utilisation", text + (largest         ? "; under the design load (under the highest design load)"
+                                   : under.empty() ? ""
+                                                   : "; under " + under));
   if (!margins->weakest.empty()) {
     const Margin& m = *weakest(*margins);
     print_row("weakest member",
-              fmt::format("{}: {} {} {} times safety factor {:.3g}, allowable load {} {} ({:.0f} % of the "
-                          "strength); margin of safety {}{}",
-                          m.member, m.load_from.value_or("load"), rounded(m.load), m.unit,
-                          *m.used * *m.strength * m.knock_down / m.load, rounded(*m.strength * m.knock_down),
-                          m.unit, 100 * m.knock_down, margin_text(*m.margin),
-                          *m.margin < 0 ? ": ALLOWABLE LOAD EXCEEDED" : ""));
+              fmt::format("{}{}: {} {} {} times safety factor {:.3g}, allowable load {} {} ({:.0f} % of the "
+                          "{}); margin of safety {}{}",
+                          largest ? "under the design load, " : "", m.member, m.load_from.value_or("load"),
+                          rounded(m.load), m.unit, *m.used * *m.strength * m.knock_down / m.load,
+                          rounded(*m.strength * m.knock_down), m.unit, 100 * m.knock_down, m.strength_from,
+                          margin_text(*m.margin), *m.margin < 0 ? ": ALLOWABLE LOAD EXCEEDED" : ""));
   }
 }
 
@@ -84,12 +86,12 @@ std::string packed_text(double mass, double volume) {
 
 std::string safe_speed_text(const SafeSpeed& s) {
   if (s.unsafe_at)
-    return fmt::format("NONE: the {} exceeds its allowable load at {:.1f} m/s", s.member, *s.unsafe_at);
+    return fmt::format("NONE: the {} does not keep its margin at {:.1f} m/s", s.member, *s.unsafe_at);
   const auto text = [](const std::optional<double>& speed) {
     return speed ? fmt::format("{:.1f}", *speed) : fmt::format("above {:g}", fastest_deployment);
   };
-  return fmt::format("{} m/s, range {} to {} m/s, {} reaches its allowable load", text(s.speed),
-                     text(s.lowest), text(s.highest), s.member);
+  return fmt::format("{} m/s ({} m/s without the uncertainty of the load), limited by {}", text(s.lowest),
+                     text(s.speed), s.member);
 }
 
 std::string weakest_text(const std::optional<Margins>& margins) {

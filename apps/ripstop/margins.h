@@ -15,7 +15,9 @@ namespace ripstop::cli {
 void print_stresses(double max_line_tension, const StressPeak& stress);
 void print_payload(const SteadyResult& result);
 /// With `largest`, the ratio of the highest design load to the load of the margins, the utilisation under both.
-void print_margins(const std::optional<Margins>& margins, std::optional<double> largest = {});
+/// Otherwise `under` names the load ("the snatch load"); empty: a row above does.
+void print_margins(const std::optional<Margins>& margins, std::optional<double> largest = {},
+                   const std::string& under = "");
 /// A line where --mass replaces another payload.mass_kg of the case.
 void print_replaced_mass(const std::optional<double>& given, const Settings& resolved);
 /// The load of a shock cord that no opening load contains, with its formula.
@@ -24,7 +26,7 @@ void print_separation();
 std::string packed_text(double mass, double volume);
 /// Strength that each part of the hardware needs.
 std::string hardware_text(const HardwareNeed& need);
-/// "12.3 m/s, range 11 to 14 m/s, line reaches its allowable load", or that there is none.
+/// "11 m/s (12.3 m/s without the uncertainty of the load), limited by line", or that there is none.
 std::string safe_speed_text(const SafeSpeed& safe);
 /// ", riser: margin of safety -0.85, ALLOWABLE LOAD EXCEEDED"; empty where no strength is known.
 std::string weakest_text(const std::optional<Margins>& margins);

@@ -73,9 +73,8 @@ void print_stage(const RecoveryStage& s, bool wind) {
                             : ""));
   print_margins(s.margins);
   print_row("required hardware", hardware_text(s.hardware));
-  print_row("fastest safe deployment",
-            safe_speed_text(s.safe) + "; range for the same uncertainty of the load");
-  print_row("descent rate at the end", range_text(s.descent_rate, "m/s"));
+  print_row("fastest safe deployment", safe_speed_text(s.safe));
+  print_row("rate of descent at the end", range_text(s.descent_rate, "m/s"));
   print_row("duration", range_text(s.duration, "s"));
   if (wind) print_row("drift", range_text(s.drift, "m"));
   print_row("packed", fmt::format("{}; mass {:.3g} kg", packed_text(s.mass, s.packed_volume), s.mass));
@@ -94,8 +93,10 @@ std::string wind_text(const RecoveryResult& r) {
 }
 
 void print_result(const RecoveryResult& r, const fs::path& folder) {
-  print_text("{}\n  {:.4g} kg and parachutes {:.3g} kg, apogee {:.5g} m above the ground at {:.4g} m\n",
-             r.title, r.mass, r.total_mass - r.mass, r.apogee, r.ground);
+  print_text(
+      "{}\n  {:.4g} kg and parachutes {:.3g} kg, apogee {:.5g} m above the ground, which is {:.4g} m above "
+      "sea level\n",
+      r.title, r.mass, r.total_mass - r.mass, r.apogee, r.ground);
   for (const RecoveryStage& stage : r.stages) print_stage(stage, r.wind.speed_m_s > 0);
   print_text("\nlanding\n");
   print_row("rate of descent", range_text(r.landing_speed, "m/s"));
@@ -140,7 +141,7 @@ int recovery(RecoveryArguments& options) {
 void add_flight(CLI::App& command, CLI::Option* drogue, RecoveryArguments& options) {
   RecoveryRequest& r = options.request;
   add_number(command, "--mass", options.mass, key_range("payload.mass_kg"),
-             "Mass that descends, without the parachutes [kg]")
+             "Mass of the payload: rocket without the parachutes [kg]")
       ->default_str("payload.mass_kg of the main's case");
   add_number(command, "--apogee", options.apogee, above(0).up_to(highest_height),
              "Apogee above the ground [m]");
@@ -152,7 +153,8 @@ void add_flight(CLI::App& command, CLI::Option* drogue, RecoveryArguments& optio
   add_number(command, "--delay", r.delay, from(0).up_to(1000), "Time from apogee to the first opening [s]");
   add_number(command, "--ground", r.ground, from(lowest_height).up_to(highest_height),
              "Height of the ground above sea level [m]");
-  add_number(command, "--body-area", r.body_drag_area, from(0).up_to(1e4), "Drag area of the body [m2]")
+  add_number(command, "--body-area", r.body_drag_area, from(0).up_to(1e4),
+             "Drag area of the payload (rocket body) [m2]")
       ->default_str("payload.drag_area_m2 of the main's case");
   add_key_option(command, "--wind", "flight.wind.speed_m_s",
                  "Speed of the wind at its reference height [m/s]; other keys of the profile with --set "

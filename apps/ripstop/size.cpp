@@ -82,7 +82,7 @@ void print_result(const SizeResult& r, const fs::path& file, const fs::path& pag
   print_margins(r.margins, r.highest_design_load / r.design_load);
   for (const SizeCheck& c : r.checks)
     row(c.basis == "descent" ? "flight" : "run",
-        fmt::format("diameter {:.3f} m, descent rate {:.3f}{} m/s, C_D {:.3f} ({})", c.nominal_diameter,
+        fmt::format("diameter {:.3f} m, rate of descent {:.3f}{} m/s, C_D {:.3f} ({})", c.nominal_diameter,
                     c.descent_rate,
                     c.descent_rate_error ? fmt::format(" +- {:.3f}", *c.descent_rate_error) : "",
                     c.drag_coefficient, c.basis));
@@ -184,7 +184,7 @@ void add_size(CLI::App& app, int& status) {
   auto options = std::make_shared<SizeArguments>();
   SizeRequest& r = options->request;
   CLI::App* command = app.add_subcommand(
-      "size", "Design a parachute for a payload and a descent rate and write its case file");
+      "size", "Design a parachute for a payload and a rate of descent and write its case file");
   command->footer(
       "The default drag coefficient is a result of Ripstop for the family (examples/families.json).\n"
       "Example: ripstop size --mass 2.4 --descent-rate 5 --family flat-circular --height 300 --out my.toml");
@@ -192,7 +192,7 @@ void add_size(CLI::App& app, int& status) {
              "Mass of the payload, without the parachute [kg]")
       ->required();
   add_number(*command, "--descent-rate", r.descent_rate, key_range("flow.speed_m_s"),
-             "Required descent rate [m/s]")
+             "Required rate of descent [m/s]")
       ->required();
   command->add_option("--family", r.family, "Canopy family: name of its example");
   auto* height = add_number(*command, "--height", r.height, from(lowest_height).up_to(highest_height),
@@ -209,14 +209,14 @@ void add_size(CLI::App& app, int& status) {
                             "open canopy, as stated by makers)");
   add_number(*command, "--deployment-speed", r.deployment_speed, above(0).up_to(1000),
              "Airspeed at line stretch, for the opening load [m/s]")
-      ->default_str(fmt::format("{:g}, or {:g} times the descent rate if that is higher",
+      ->default_str(fmt::format("the larger of {:g} m/s and {:g} times the rate of descent",
                                 least_deployment_speed, deployment_over_descent));
   command->add_option("--line-material", r.line_material, "Line material of the library")
       ->default_str("the lightest with sufficient strength");
   add_number(*command, "--packing-density", r.packing_density, from(50).up_to(1500),
              "Density of the packed parachute, 250 (loose) to 400 by hand, 600 with a press [kg/m3]");
   command->add_flag("--verify", options->verify,
-                    "Run the case and adjust the diameter until the descent rate is met within 1 %");
+                    "Run the case and adjust the diameter until the rate of descent is met within 1 %");
   command->add_flag("--fly", options->fly, "With --verify: free flights instead of steady runs on the axis");
   add_number(*command, "--duration", options->duration, key_range("flight.duration_s"),
              "Duration of each flight of --fly [s]");

@@ -326,9 +326,9 @@ TEST_F(Export, ARunWithAPayloadHasTheDeploymentSpeedOfSizeAndStatesIt) {
   EXPECT_EQ(p.deployment_speed, least_deployment_speed);
   EXPECT_DOUBLE_EQ(p.lag, exported(run, 20).lag);
   EXPECT_EQ(exported(run, 12).deployment_speed, 12);
-  const std::string assumed =
-      fmt::format("at {0:g} m/s (assumed, {0:g} m/s or {1:g} times the rate of descent of 5 m/s",
-                  least_deployment_speed, deployment_over_descent);
+  const std::string assumed = fmt::format(
+      "at {0:g} m/s (assumed, the larger of {0:g} m/s and {1:g} times the rate of descent of 5 m/s",
+      least_deployment_speed, deployment_over_descent);
   for (const std::string& text : {rocketpy_text(p, "apogee"), openrocket_design({{{p, "apogee"}}})})
     EXPECT_NE(text.find(assumed), std::string::npos) << text;
   run.result.speed = 9;

@@ -90,7 +90,9 @@ TEST(Fastest, IsSlowerWithAMarginToKeepAndAbsentWhereNothingIsAtItsLimit) {
   const FastestResult weak = run_fastest(flat_circular({{"hardware.link.rated_load_n", "0.01"}}), request());
   EXPECT_TRUE(weak.design().unsafe_at);
   EXPECT_FALSE(weak.design().speed);
-  ASSERT_EQ(weak.warnings.size(), 1u);
+  EXPECT_TRUE(std::any_of(weak.warnings.begin(), weak.warnings.end(), [](const std::string& text) {
+    return text.starts_with("no deployment is safe by the method infinite mass");
+  }));
   LoadRequest measured = request();
   measured.measured_load = 100;
   EXPECT_NE(refusal_of([&] { run_fastest(resolved, measured); }, ExitCode::usage).find("measured"),
@@ -107,7 +109,8 @@ TEST(Fastest, IsAbsentWhereTheLowerEndIsBelowTheSlowestDeployment) {
   const FastestResult between = with(1.1 * at_slowest), above = with(1.4 * at_slowest);
   EXPECT_TRUE(between.design().unsafe_at);
   EXPECT_FALSE(between.design().lowest);
-  EXPECT_NE(between.warnings.at(0).find("uncertainty of 18 %"), std::string::npos) << between.warnings[0];
+  EXPECT_NE(between.warnings.back().find("uncertainty of 18 %"), std::string::npos)
+      << between.warnings.back();
   ASSERT_TRUE(above.design().lowest && above.design().speed);
   LoadRequest there = request();
   there.speed = *above.design().lowest;
@@ -277,7 +280,7 @@ TEST(Fastest, CarriesTheSnatchLoadToo) {
   EXPECT_EQ(slow.advice.find("snatch"), std::string::npos) << slow.advice;
   ASSERT_GT(fast.snatch->load, 1500);
   EXPECT_FALSE(fast.design().speed);
-  EXPECT_NE(fast.advice.find("no speed: the link does not carry the snatch load"), std::string::npos)
+  EXPECT_NE(fast.advice.find("the margin of safety of the link is below the required 0"), std::string::npos)
       << fast.advice;
 }
 

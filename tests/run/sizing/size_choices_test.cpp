@@ -99,7 +99,8 @@ TEST(SizeChoices, TheFastestSafeDeploymentAllowsTheDeploymentSpeedOfEverySizedPa
       SizeRequest asked = wanted(mass);
       asked.family = drag.family, asked.deployment_speed = speed;
       const SizeResult r = run_size(asked);
-      EXPECT_TRUE(r.warnings.empty());
+      for (const std::string& text : r.warnings)
+        EXPECT_EQ(text.find("the payload is heavy for this canopy"), 0u) << text;
       LoadRequest load;
       load.payload_mass = mass;
       const FastestResult fastest = run_fastest(resolve(parse_case(r.case_text, "the sized case")), load);

@@ -28,9 +28,9 @@ void take_deployment_speed(const FinishedSteady& run, const std::optional<double
                                          : run.result.speed;
   p.deployment_speed_from = given ? "given" : "speed of the run";
   if (p.speed_assumed)
-    p.deployment_speed_from =
-        fmt::format("assumed, {:g} m/s or {:g} times the rate of descent of {:.3g} m/s, as ripstop size",
-                    least_deployment_speed, deployment_over_descent, run.result.speed);
+    p.deployment_speed_from = fmt::format(
+        "assumed, the larger of {:g} m/s and {:g} times the rate of descent of {:.3g} m/s, as ripstop size",
+        least_deployment_speed, deployment_over_descent, run.result.speed);
   require_positive("deployment speed (m/s)", p.deployment_speed);
 }
 

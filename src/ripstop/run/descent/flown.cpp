@@ -64,16 +64,19 @@ DescentDrag descent_drag(const Settings& resolved, const DragCoefficient& drag) 
   const std::string type(resolved.parachute().canopy.family().type);
   const std::string& cloth = resolved.parachute().canopy_material;
   const auto same_type = [&](const FlownDrag& row) { return row.type == type; };
-  const char* which = "flights of this type and cloth";
+  const char* which = "computed flights of this family and cloth";
   std::vector<double> found =
       ratios([&](const FlownDrag& row) { return same_type(row) && row.cloth == cloth; });
-  if (found.empty()) which = "flights of this type with another cloth", found = ratios(same_type);
-  if (found.empty()) which = "flights of other types", found = ratios([](const FlownDrag&) { return true; });
+  if (found.empty()) which = "computed flights of this family with another cloth", found = ratios(same_type);
+  if (found.empty())
+    which = "computed flights of other families", found = ratios([](const FlownDrag&) { return true; });
   const auto [least, most] = std::minmax_element(found.begin(), found.end());
-  const std::string times = *least == *most ? fmt::format("factor {:.2f}", *least)
-                                            : fmt::format("factors {:.2f} to {:.2f}", *least, *most);
-  return {low * std::min(1.0, *least), high * std::max(1.0, *most),
-          fmt::format("{}, widened by the {} for the motion in descent ({})", own, times, which)};
+  std::string times;
+  if (*least < 1) times = fmt::format("{:.2f} at the lower end", *least);
+  if (*most > 1) times += fmt::format("{}{:.2f} at the upper end", times.empty() ? "" : " and ", *most);
+  return {
+      low * std::min(1.0, *least), high * std::max(1.0, *most),
+      times.empty() ? own : fmt::format("{}, times {} for the motion in descent ({})", own, times, which)};
 }
 
 }  // namespace ripstop::inline run

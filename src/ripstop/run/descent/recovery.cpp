@@ -332,10 +332,8 @@ RecoveryStage stage_of(const RecoveryCanopy& canopy, std::size_t i, const std::v
                                    i + 1 < flights[0].stages.size() ? "the main opens" : "the rocket lands"));
   if (s.safe.lowest && s.speed.high > *s.safe.lowest) {
     const auto [speed, safe] = rounded_apart(s.speed.high, *s.safe.lowest);
-    warnings.push_back(
-        fmt::format("{}: it opens at up to {} m/s; the fastest safe deployment is {} m/s (lower end of its "
-                    "range, {})",
-                    canopy.name, speed, safe, s.safe.method));
+    warnings.push_back(fmt::format("{}: it opens at up to {} m/s; the fastest safe deployment is {} m/s ({})",
+                                   canopy.name, speed, safe, s.safe.method));
   }
   return s;
 }

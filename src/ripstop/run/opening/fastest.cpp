@@ -149,15 +149,19 @@ std::string printed(const std::optional<double>& speed) {
 std::string advice_of(const FastestResult& r, double filling_distance) {
   const SafeSpeed& design = r.design();
   if (design.unsafe_at && r.snatch && r.snatch->largest() > design.load)
-    return fmt::format("no speed: the {} does not carry the snatch load", design.member);
+    return fmt::format(
+        "no speed: under the snatch load of {} N the margin of safety of the {} is below the required {:g}; "
+        "use a stronger or longer part, or reduce the speed difference",
+        rounded(r.snatch->largest()), design.member, r.margin);
   if (design.unsafe_at)
-    return "no speed: the weakest member exceeds its allowable load even at the rate of descent";
+    return fmt::format("no speed: the {} does not keep its margin even at the rate of descent",
+                       design.member);
   if (r.design_method == computed_method)
     return fmt::format(
-        "{}, the lower end of the range for the computed opening. It is valid for the deployment of that run",
+        "{}, the safe speed of the computed opening. It is valid for the deployment of that run",
         printed(design.lowest));
   std::string text = fmt::format(
-      "{}, the lower end of the range for infinite mass, in which the speed does not decrease during "
+      "{}, the safe speed for infinite mass, in which the speed does not decrease during "
       "filling. Not included: failure of a reefing line{} and the stress of the cloth",
       printed(design.lowest), r.snatch ? "" : ", the snatch load");
   if (r.snatch && r.snatch->largest() > (1 + r.load_uncertainty) * design.load)
@@ -226,16 +230,21 @@ FastestResult run_fastest(const Settings& resolved, const LoadRequest& request, 
   r.snatch = loads.snatch(r.design().unsafe_at ? slowest : r.design().lowest.value_or(fastest_deployment));
   if (r.snatch && r.snatch->other_load) r.warnings.push_back(two_snatch_loads(*r.snatch));
   r.advice = advice_of(r, fast.filling_constant);
-  if (r.design_method == infinite_mass_method && !fast.design_load_caution.empty())
-    r.warnings.push_back(fast.design_load_caution);
+  if (!fast.design_load_caution.empty()) r.warnings.push_back(fast.design_load_caution);
   for (std::string& text : strain_warnings(resolved, 0)) r.warnings.push_back(std::move(text));
   for (std::string& text : hardware_warnings(resolved)) r.warnings.push_back(std::move(text));
   if (r.design().unsafe_at)
     r.warnings.push_back(
-        fmt::format("no deployment is safe by the method {}: at {:.3g} m/s, about the rate of descent, the "
-                    "{} does not keep its margin with the uncertainty of {:.0f} % of the load; use stronger "
-                    "parts",
-                    r.design_method, slowest, r.design().member, 100 * r.load_uncertainty));
+        r.snatch && r.snatch->largest() > r.design().load
+            ? fmt::format(
+                  "no deployment is safe: the {} does not keep its margin under the snatch load of {} N; use "
+                  "stronger parts, or reduce the speed difference",
+                  r.design().member, rounded(r.snatch->largest()))
+            : fmt::format(
+                  "no deployment is safe by the method {}: at {:.3g} m/s, about the rate of descent, the "
+                  "{} does not keep its margin with the uncertainty of {:.0f} % of the load; use stronger "
+                  "parts",
+                  r.design_method, slowest, r.design().member, 100 * r.load_uncertainty));
   return r;
 }
 

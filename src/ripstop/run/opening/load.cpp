@@ -54,9 +54,8 @@ void check_request(const LoadRequest& request) {
     if (!(stage.share > before && stage.share < 1))
       throw Error(
           ExitCode::usage,
-          fmt::format("a reefed stage at {:g} of the drag area: must be above {:g}, the stage before, and "
-                      "below 1",
-                      stage.share, before));
+          fmt::format("a reefed stage at {0:g} of the drag area: must be above {1:g} ({2}) and below 1",
+                      stage.share, before, before > 0 ? "the stage before" : "closed"));
     require_positive("duration of a reefed stage (s)", stage.duration);
     before = stage.share;
   }
@@ -338,7 +337,7 @@ void choose_design_load(const Settings& resolved, const LoadRequest& request, co
     r.design_method = computed_method;
   }
   r.line_load_factor = experience(resolved.parachute()).line_load_factor;
-  if (r.design_method == infinite_mass_method && !request.opening_coefficient)
+  if (!r.design_method.empty() && r.design_method != computed_method && !request.opening_coefficient)
     r.design_load_caution = heavy_payload_caution(resolved, r);
   if (!r.design_load_caution.empty()) r.warnings.push_back(r.design_load_caution);
   LoadUncertainty uncertainty =
@@ -358,16 +357,15 @@ void take_required_load(const Settings& resolved, LoadResult& r) {
   r.hardware = hardware_need(r.required_load, resolved.margins());
   for (const std::string& text : margin_warnings(r.margins)) r.warnings.push_back(text);
   const Margins highest = load_margins(resolved, r.highest_design_load, largest_snatch);
-  if (const Margin* usual = weakest(*r.margins), *least = weakest(highest);
-      usual && *usual->margin >= 0 && *least->margin < 0)
-    r.warnings.push_back(
-        fmt::format("under the highest design load of {} N, which contains the uncertainty of {:.0f} %, the "
-                    "{} exceeds its "
-                    "allowable load (margin of safety {}): the fastest safe deployment (ripstop load "
-                    "--fastest) is slower than "
-                    "{:g} m/s; use a stronger material",
-                    rounded(r.highest_design_load), 100 * r.load_uncertainty, least->member,
-                    margin_text(*least->margin), r.speed));
+  if (const Margin* least = weakest(highest))
+    r.smallest_margin = least->margin, r.smallest_margin_member = least->member;
+  if (const Margin* usual = weakest(*r.margins); usual && *usual->margin >= 0 && *r.smallest_margin < 0)
+    r.warnings.push_back(fmt::format(
+        "under the highest design load of {} N, which contains the uncertainty of {:.0f} %, the "
+        "{} exceeds its allowable load (margin of safety {}): the fastest safe deployment (ripstop "
+        "load --fastest) is slower than {:g} m/s; use a stronger material",
+        rounded(r.highest_design_load), 100 * r.load_uncertainty, r.smallest_margin_member,
+        margin_text(*r.smallest_margin), r.speed));
   if (!r.snatch) return;
   for (const auto& [part, ratio] :
        {std::pair("a line", r.snatch->line_margin), std::pair("the riser", r.snatch->riser_margin)})

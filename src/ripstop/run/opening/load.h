@@ -112,10 +112,12 @@ struct LoadResult {
   std::string design_method;        // of a stage, whose load this is; empty: measured
   double load_uncertainty = 0;      // of the design load, relative
   std::string load_uncertainty_from;
-  double highest_design_load = 0;  // design load with its uncertainty [N]
-  double required_load = 0;        // of hardware: highest design load or larger snatch load [N]
-  HardwareNeed hardware;           // under it
-  double line_load_factor = 1;     // largest line load over an equal share, of the family
+  double highest_design_load = 0;         // design load with its uncertainty [N]
+  double required_load = 0;               // of hardware: highest design load or larger snatch load [N]
+  HardwareNeed hardware;                  // under it
+  std::optional<double> smallest_margin;  // of safety, of the weakest member under the highest design load
+  std::string smallest_margin_member;
+  double line_load_factor = 1;  // largest line load over an equal share, of the family
   std::optional<Margins>
       margins;  // of tape or hem under the design load, of the others also under the snatch load
   double peak_load = 0, peak_time = 0;     // of the trajectory [N], [s]
@@ -160,6 +162,8 @@ void each_member(T& r, Visit&& visit) {
   visit("highest_design_load_n", r.highest_design_load);
   visit("required_load_n", r.required_load);
   visit("required_hardware", r.hardware);
+  visit("smallest_margin_of_safety", r.smallest_margin);
+  visit("smallest_margin_member", r.smallest_margin_member);
   visit("line_load_factor", r.line_load_factor);
   visit("margins", r.margins);
   visit("peak_load_n", r.peak_load);

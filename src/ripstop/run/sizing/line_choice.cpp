@@ -1,6 +1,7 @@
 #include "ripstop/run/sizing/line_choice.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <string_view>
 #include <variant>
@@ -22,13 +23,17 @@ double used_of(const Case& given, double opening_load, const Line& line, LineMem
 
 std::vector<Line> library_lines(const std::optional<std::string>& name) {
   std::vector<Line> lines;
+  std::vector<std::string> names;
   for (const std::string& each : library_names()) {
-    if (name && each != *name) continue;
     const Material material = library_material(each);
-    if (const Line* line = std::get_if<Line>(&material)) lines.push_back(*line);
+    const Line* line = std::get_if<Line>(&material);
+    if (!line) continue;
+    names.push_back(each);
+    if (!name || each == *name) lines.push_back(*line);
   }
   if (name && lines.empty())
-    throw Error(ExitCode::usage, fmt::format("--line-material {}: the library has no such line", *name));
+    throw Error(ExitCode::usage, fmt::format("--line-material {}: the library has no such line; it has {}",
+                                             *name, fmt::join(names, ", ")));
   return lines;
 }
 

@@ -145,6 +145,7 @@ void find_opening(const SizeRequest& request, SizeResult& r) {
                                               load.drag_uncertainty, r.drag_basis})
                                 .from;
   r.highest_design_load = load.highest_design_load;
+  r.smallest_margin = load.smallest_margin, r.smallest_margin_member = std::move(load.smallest_margin_member);
   r.line_load_factor = load.line_load_factor;
   r.margins = std::move(load.margins);
   r.load_warnings = std::move(load.warnings);
@@ -272,9 +273,6 @@ void describe_parachute(const SizeRequest& request, SizeResult& r) {
   const PartMasses masses = parachute_masses(resolved);
   r.cloth_mass = masses.cloth, r.tape_mass = masses.tape, r.line_mass = masses.lines + masses.riser;
   r.parachute_mass = masses.total;
-  const Margins largest = load_margins(resolved, r.highest_design_load);
-  if (const Margin* least = weakest(largest))
-    r.smallest_margin = least->margin, r.smallest_margin_member = least->member;
   if (r.handbook_drag_coefficient) {
     const double scale = r.nominal_diameter * std::sqrt(r.drag_coefficient);
     r.handbook_diameter = {scale / std::sqrt(r.handbook_drag_coefficient->at(0)),
@@ -326,8 +324,8 @@ void take_coefficient(const SizeRequest& request, const FamilyDrag& drag, SizeRe
   const auto of_flight = [&](double value, const char* how) {
     r.drag_basis = "descent", r.drag_coefficient = value;
     r.drag_source =
-        fmt::format("in descent (computed free flight): {:.3f} +- {:.3f} over {} half-swings{}; {}", flown,
-                    drag.flown->standard_error, drag.flown->half_swings, how, drag.flown->made);
+        fmt::format("in descent: {:.3f} +- {:.3f} over {} half-swings of a computed free flight{} ({})",
+                    flown, drag.flown->standard_error, drag.flown->half_swings, how, drag.flown->made);
   };
   if (request.drag_coefficient_on == DragReference::projected && !request.drag_coefficient)
     throw Error(ExitCode::usage, "--drag-coefficient-on projected needs --drag-coefficient");
@@ -347,7 +345,7 @@ void take_coefficient(const SizeRequest& request, const FamilyDrag& drag, SizeRe
   } else if (request.basis == DragBasis::descent) {
     of_flight(flown, "");
   } else if (request.basis == DragBasis::safe && drag.flown && lower < drag.drag_coefficient) {
-    of_flight(lower, ", less two standard errors, because it is below the axial one");
+    of_flight(lower, ", less two standard errors; it is below the axial one");
   } else {
     r.drag_basis = "axial", r.drag_coefficient = drag.drag_coefficient;
     r.drag_source = fmt::format("axial, computed at {:g} m/s: {}", drag.speed, drag.made);
