@@ -10,6 +10,7 @@
 #include "ripstop/parachute/profile.h"
 #include "ripstop/run/descent/recovery.h"
 #include "ripstop/run/opening/fastest.h"
+#include "ripstop/run/quality.h"
 
 namespace ripstop {
 namespace {
@@ -102,6 +103,14 @@ TEST(Warnings, AGridIsWarnedOfWhereTheAirsOwnLoadFindsFewerThanTenCellsAcrossThe
   const std::vector<std::string> told = cells(6);
   ASSERT_EQ(told.size(), 1u);
   EXPECT_EQ(told[0].find("6.2 flow cells across the inflated canopy: with fewer than 10 "), 0u) << told[0];
+  const std::vector<std::string> refused = cells(3.8);
+  ASSERT_EQ(refused.size(), 1u);
+  EXPECT_EQ(refused[0].find(
+                "3.9 flow cells across the inflated canopy: the result must not be used (limit 4; fewer "
+                "than 10 cause a warning); increase flow.cells"),
+            0u)
+      << refused[0];
+  EXPECT_EQ(reason_of_refusal(refused[0]), "3.9 flow cells across the inflated canopy");
   EXPECT_EQ(case_warnings(resolve(given)).size(),
             mesh_warnings(resolve(given)).size() + 1 + porosity_warnings(resolve(given)).size());
   given.coupling.load = CanopyLoad::uniform;
