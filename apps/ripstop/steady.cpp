@@ -58,7 +58,7 @@ void print_unsteady(const UnsteadyResult& unsteady) {
                                                 : std::string("not known"),
                         w.deviation));
   print_row("side force",
-            fmt::format("x {:.2g} +- {:.2g}, y {:.2g} +- {:.2g} N; standard deviation {:.2g} N{}",
+            fmt::format("x {:.2g} +- {:.2g} N, y {:.2g} +- {:.2g} N; standard deviation {:.2g} N{}",
                         w.side_force.x, w.side_error.x, w.side_force.y, w.side_error.y, w.side_deviation,
                         w.swing > 0 ? fmt::format(", dominant frequency {:.3g} Hz (Strouhal number {:.2f})",
                                                   w.swing, unsteady.strouhal)
