@@ -91,7 +91,8 @@ void add_flow_options(CLI::App& command, Overrides& overrides) {
 }
 
 void add_case_options(CLI::App& command, Overrides& overrides) {
-  add_key_number(command, "--speed", "flow.speed_m_s", overrides.speed, "Nominal speed [m/s]");
+  add_key_number(command, "--speed", "flow.speed_m_s", overrides.speed,
+                 "Airspeed [m/s]; in a wind tunnel the nominal speed");
   command.add_flag("--linear", overrides.linear,
                    "Linear material model: only the stiffness coefficient K_1 of every material");
   add_set_option(command, overrides);

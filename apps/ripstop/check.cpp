@@ -59,7 +59,7 @@ void print(const Settings& resolved, const CaseSummary& s, std::size_t warnings)
   const bool given = resolved.source("parachute.nominal_area_m2").given;
   fmt::print("{}\n", resolved.title().empty() ? resolved.file().string() : resolved.title());
   row("nominal area",
-      fmt::format("{:.4f} m2{}", s.nominal_area, given ? " (given)" : " (definition of the canopy type)"));
+      fmt::format("{:.4f} m2{}", s.nominal_area, given ? " (given)" : " (definition of the canopy family)"));
   row("cloth", fmt::format("{:.4f} m2 finished (without allowances), {:.4f} m2 as meshed", s.computed_area,
                            s.cloth_area));
   row("open area", fmt::format("{:.2f} % geometric porosity: vent {:.4f} m2, slots and gaps {:.4f} m2",
@@ -74,15 +74,19 @@ void print(const Settings& resolved, const CaseSummary& s, std::size_t warnings)
       fmt::format("{}, the shortest {:.3g} mm ({})", s.springs, 1000 * s.smallest_spring, s.smallest_part));
   if (const auto& cluster = resolved.written().cluster)
     row("cluster",
-        fmt::format("{} canopies at {:g} deg to its axis{}; all values above are of one of them",
-                    cluster->canopies, cluster->spread_angle_deg,
-                    cluster->equilibrium ? ", the first angle of the search for the equilibrium" : ""));
+        fmt::format(
+            "{} canopies at {:g} deg to its axis{}; area, mass, mesh, stable step and reefing are of one "
+            "canopy; flow domain, memory and time are of the cluster",
+            cluster->canopies, cluster->spread_angle_deg,
+            cluster->equilibrium ? ", the first angle of the search for the equilibrium" : ""));
   row("stable step", fmt::format("{:.3g} s, limited by {}; the estimate of [NFM] is {:.3g} s",
                                  s.step.stable_step, s.step.part, s.step.printed_step));
   row("flow domain",
-      fmt::format("{} cells, {:.3g} x {:.3g} x {:.3g} mm at the canopy, blockage {:.1f} %{}", s.flow_cells,
-                  1000 * s.flow_spacing.x, 1000 * s.flow_spacing.y, 1000 * s.flow_spacing.z, 100 * s.blockage,
-                  s.of_jet ? " of the nozzle" : ""));
+      fmt::format(
+          "{} cells, {:.3g} x {:.3g} x {:.3g} mm at the canopy, blockage of the undeformed {} {:.1f} %{}",
+          s.flow_cells, 1000 * s.flow_spacing.x, 1000 * s.flow_spacing.y, 1000 * s.flow_spacing.z,
+          resolved.written().cluster ? "canopies" : "canopy", 100 * s.blockage,
+          s.of_jet ? " of the nozzle" : ""));
   row("memory", fmt::format("about {:.2g} GB for a steady run", 1e-9 * s.memory));
   row("time", fmt::format("about {} on one core for a steady run with the built-in engine; typically 0.5 to "
                           "2 times this estimate",

@@ -162,7 +162,8 @@ void add_compare(CLI::App& app, int& status) {
   add_sweep_options(*command, *options);
   command->get_option("case")->description("Folder of a finished run, or with --linear a case file (TOML)");
   add_run_folders(*command, "others", options->others, "Folders of further finished runs");
-  add_key_number(*command, "--speed", "flow.speed_m_s", options->overrides.speed, "Nominal speed [m/s]");
+  add_key_number(*command, "--speed", "flow.speed_m_s", options->overrides.speed,
+                 "Airspeed [m/s]; in a wind tunnel the nominal speed");
   CLI::Option* linear =
       command->add_flag("--linear", options->linear, "Compare with the linear model, which uses only K_1");
   add_existing_file(*command, "--measured", options->measured,
@@ -172,6 +173,15 @@ void add_compare(CLI::App& app, int& status) {
              "Shift added to the measured time [s]")
       ->default_str("least mean square difference of the loads");
   add_table_options(*command, options->columns, options->decimal, "force=Kraft [kN],time=Zeit [ms]");
+  const auto only_with = [&](const std::string& mode, const std::vector<std::string>& names) {
+    for (const std::string& name : names) {
+      CLI::Option* option = command->get_option(name);
+      option->description(fmt::format("With {}: {}", mode, option->get_description()));
+    }
+  };
+  only_with("--linear", {"--flow", "--ranks", "--grid", "--set", "--unset", "--jobs", "--cold", "--fields",
+                         "--fresh", "--speed"});
+  only_with("--measured", {"--time-shift", "--columns", "--decimal"});
   command->add_option("--out", options->settings.folder, "Folder")
       ->default_str("with --linear runs/<name of the case>-compare, else none");
   command->callback([options, &status] { status = compare(*options); });

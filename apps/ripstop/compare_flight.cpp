@@ -32,15 +32,15 @@ struct CompareFlightArguments {
 };
 
 void print_phases(const MeasuredFlight& f) {
-  const int height_width = both_units() ? 32 : 16, speed_width = both_units() ? 24 : 12,
+  const int height_width = both_units() ? 32 : 16, speed_width = both_units() ? 24 : 16,
             area_width = both_units() ? 42 : 26;
-  fmt::print("{:>6} {:>{}} {:>{}} {:>{}} {:>14}\n", "phase", "above ground", height_width, "speed",
-             speed_width, "drag area", area_width, "C_D on S0");
+  fmt::print("{:>6} {:>{}} {:>{}} {:>{}} {:>22}\n", "phase", "above ground", height_width, "rate of descent",
+             speed_width, "drag area", area_width, "C_D on S0 of the case");
   for (std::size_t i = 0; i < f.phases.size(); ++i) {
     const DescentPhase& p = f.phases[i];
     const std::string heights = in_units(fmt::format("{:.0f} to {:.0f} m", p.from_height, p.to_height));
     if (p.drag_area)
-      fmt::print("{:>6} {:>{}} {:>{}} {:>{}} {:>14.3f}\n", i + 1, heights, height_width,
+      fmt::print("{:>6} {:>{}} {:>{}} {:>{}} {:>22.3f}\n", i + 1, heights, height_width,
                  in_units(fmt::format("{:.2f} m/s", p.speed)), speed_width,
                  in_units(fmt::format("{:.4f} +- {:.4f} m2", *p.drag_area, *p.drag_area_uncertainty)),
                  area_width, *p.drag_area / f.nominal_area);
@@ -61,7 +61,7 @@ void print_result(const MeasuredFlight& f, const fs::path& out) {
                d.speed_before, d.speed_after);
     if (d.peak_load) print_text(", peak {:.4g} N", *d.peak_load);
     if (d.filling_time) print_text(", filling time {:.2f} s", *d.filling_time);
-    if (d.filling_distance) print_text(" ({:.1f} nominal diameters)", *d.filling_distance);
+    if (d.filling_distance) print_text(", filling distance {:.1f} D0", *d.filling_distance);
     print_text("{}\n", d.problem.empty() ? "" : "; " + d.problem);
   }
   for (const FlightComparison& c : f.computed)
@@ -79,7 +79,7 @@ int compare(CompareFlightArguments& options) {
   const MeasuredFlight flight = compare_flight(read_settings(options.case_file), options.request);
   write_measured_flight(options.out, flight);
   const int status = show(flight, options.json, [&] { print_result(flight, options.out); });
-  for (const std::string& note : flight.notes) fmt::print(stderr, "ripstop: {}\n", visible_line(note));
+  for (const std::string& note : flight.notes) fmt::print(stderr, "note: {}\n", visible_line(note));
   return status;
 }
 
@@ -91,8 +91,9 @@ void add_compare_flight(CLI::App& app, int& status) {
       "compare-flight",
       "Determine drag areas over height, deployments and opening loads from the logs of a flight");
   command->footer(
-      "A drag area is determined where the speed of descent is steady; +- is one standard deviation, from "
-      "the\nuncertainties of height and mass.\n"
+      "A phase is the time between two deployments, before the first or after the last one. Its drag\n"
+      "area is determined where the rate of descent is steady; +- is one standard deviation, from the\n"
+      "uncertainties of height and mass.\n"
       "Example: ripstop compare-flight examples/flight-log/flight.csv --case examples/flight-log/main.toml "
       "--ground 200");
   command

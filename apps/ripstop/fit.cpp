@@ -46,7 +46,10 @@ void print_directions(const MaterialFit& fit, double confidence) {
     }
     fmt::print("  K_0 {}\n", interval_text(d.fit.offset, load_unit(d), confidence));
     for (std::size_t k = 0; k < d.fit.k.size(); ++k)
-      fmt::print("  K_{} {}\n", k + 1, interval_text(d.fit.k[k], load_unit(d), confidence));
+      fmt::print("  K_{} {}{}\n", k + 1, interval_text(d.fit.k[k], load_unit(d), confidence),
+                 k == 0 && d.fit.k[k].standard_error > 0 && std::isfinite(d.fit.k[k].standard_error)
+                     ? "; the interval includes the error of a degree that is too low"
+                     : "");
   }
 }
 

@@ -91,7 +91,7 @@ class OpeningTerminal : public InflationObserver {
  public:
   explicit OpeningTerminal(Progress& progress) : progress_(progress) {}
 
-  void warned(const std::string& text) override { progress_.line("ripstop: " + text); }
+  void warned(const std::string& text) override { progress_.line("warning: " + text); }
   void begin(const Opening& opening, InflationState& state, InflationHistory&) override {
     if (state.blocks > 0)
       progress_.line(fmt::format("inflation, resuming at {:.2f} ms", 1000 * state.cloth.time));
@@ -119,7 +119,7 @@ class FlightTerminal : public FlightObserver {
       : progress_(progress), folder_(folder), quiet_(quiet), opening_(progress) {}
 
   InflationObserver& opening() override { return opening_; }
-  void warned(const std::string& text) override { progress_.line("ripstop: " + text); }
+  void warned(const std::string& text) override { progress_.line("warning: " + text); }
   void starting(const SteadyProgress& p, const SteadyState&) override {
     progress_.show(fmt::format("equilibrium on the axis, iteration {}", p.iteration));
   }

@@ -23,6 +23,7 @@
 #include "ripstop/run/opening/inflation_folder.h"
 #include "ripstop/run/opening/samples.h"
 #include "ripstop/run/opening/snatch.h"
+#include "ripstop/run/quality.h"
 #include "ripstop/run/report/report.h"
 #include "stopping.h"
 #include "units_option.h"
@@ -66,9 +67,14 @@ void print_start(const Opening& solver, const InflationState& state, const LoadS
   const StartStrain strain = start_strain(solver.mesh(), folded.positions);
   print_text("folded start: {} folds, skirt folds at {:.4f} m and {:.4f} m from the axis\n", folded.folds,
              folded.inner_radius, folded.outer_radius);
-  print_text("  largest strain {:.2e}{}\n", strain.largest,
-             strain.part.empty() ? "" : " (" + strain.part + "); should be below 1e-3");
-  print_text("  edges that pierce cloth {:.2f} %\n", 100 * pierced_share(solver.mesh(), folded.positions));
+  print_text("  largest start strain {:.2e}{}\n", strain.largest,
+             strain.part.empty() ? ""
+                                 : fmt::format(" ({}; should be below {:.0e})", strain.part,
+                                               quality_limit("start_strain").warn));
+  print_text("  pierced edges {:.2f} %{}\n", 100 * pierced_share(solver.mesh(), folded.positions),
+             solver.problem().settings.contact_pa > 0
+                 ? fmt::format(" (should be below {:g} %)", 100 * quality_limit("pierced_edges").warn)
+                 : "");
   if (const auto& air = solver.problem().air)
     print_text("{}: {} x {} x {} cells\n", source.text, air->flow.grid.nx, air->flow.grid.ny,
                air->flow.grid.nz);
@@ -182,8 +188,8 @@ void print_result(const InflationResult& r, const fs::path& folder, double wall_
   row("impulse", fmt::format("{:.3f} N s", r.impulse));
   print_stages(r);
   row("maximum line tension", fmt::format("{:.1f} N", r.max_line_tension));
-  row("maximum von Mises stress",
-      fmt::format("{:.0f} N/m ({}) at {:.1f} ms", r.stress.von_mises, r.stress.patch, 1000 * r.stress_time));
+  row("maximum von Mises stress", fmt::format("{:.0f} N/m, mean over 50 mm ({}) at {:.1f} ms",
+                                              r.stress.von_mises, r.stress.patch, 1000 * r.stress_time));
   row("energy balance", fmt::format("work in = kinetic + elastic + damped{} within {:.3f} %",
                                     r.stages ? " + cut" : "", 100 * r.energy_residual));
   if (r.settings.contact_pa > 0)
@@ -201,7 +207,7 @@ class Terminal : public InflationObserver {
   Terminal(const LoadSource& source, const fs::path& folder, bool quiet, Progress& progress)
       : source_(source), folder_(folder), quiet_(quiet), progress_(progress) {}
 
-  void warned(const std::string& text) override { progress_.line("ripstop: " + text); }
+  void warned(const std::string& text) override { progress_.line("warning: " + text); }
   void begin(const Opening& solver, InflationState& state, InflationHistory&) override {
     if (state.blocks > 0)
       progress_.line(fmt::format("resuming at {:.2f} ms in {}", 1000 * state.cloth.time, folder_.string()));

@@ -61,9 +61,10 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", version());
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 done, 2 usage or case file, 3 bad input data, 4 not converged, 5 diverged,\n"
-      "6 external solver, 7 input/output, 8 not enough memory or threads, 70 internal error,\n"
-      "128 + N ended by signal N. Each command has its own --help with an example.\n"
+      "Exit codes: 0 done, 2 usage or case file, 3 bad input data, 4 not converged, or outside\n"
+      "a limit of quality, 5 diverged, 6 external solver, 7 input/output, 8 not enough memory or\n"
+      "threads, 70 internal error, 128 + N ended by signal N.\n"
+      "Each command has its own --help with an example.\n"
       "[NFM] and other sources: docs/references.bib.");
   int status = 0;
   app.option_defaults()->always_capture_default();

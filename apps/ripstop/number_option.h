@@ -43,7 +43,7 @@ CLI::Option* add_key_number(CLI::App& command, const std::string& option, const 
 Range key_range(const std::string& key);
 /// Name of the type of that key in the help.
 std::string key_type(const std::string& key);
-/// "Nominal speed [m/s] (case key flow.speed_m_s); above 0 and at most 100".
+/// "Airspeed [m/s] (case key flow.speed_m_s); above 0 and at most 100".
 std::string with_key(const std::string& help, const std::string& key);
 /// "Airspeed at line stretch [m/s]; above 0 and at most 1000".
 std::string with_range(const std::string& help, Range range);

@@ -23,7 +23,8 @@ void add_opening_options(CLI::App& command, OpeningOptions& options) {
                  options.overrides);
   add_key_option(command, "--cloth-nodes", "parachute.mesh.cloth_nodes", "Target number of cloth nodes",
                  options.overrides);
-  add_key_number(command, "--speed", "flow.speed_m_s", options.overrides.speed, "Nominal speed [m/s]");
+  add_key_number(command, "--speed", "flow.speed_m_s", options.overrides.speed,
+                 "Airspeed at deployment [m/s]");
   add_set_option(command, options.overrides);
   add_number(command, "--threads", options.threads, from(1).up_to(key_range("coupling.threads").high),
              "Number of threads")
@@ -39,7 +40,7 @@ Settings opening_settings(const OpeningOptions& options) {
   if (!given.inflation.initial_radius_m) {
     close_mouth(given.parachute, given.inflation);
     fmt::print(stderr,
-               "ripstop: inflation.initial_radius_m is not given; the mouth is closed: radius of the folded "
+               "note: inflation.initial_radius_m is not given; the mouth is closed: radius of the folded "
                "skirt {:.4g} m\n",
                *given.inflation.initial_radius_m);
   }

@@ -101,7 +101,8 @@ void add_pattern(CLI::App& app, int& status) {
   length("--tape-overlap", options->allowances.tape_overlap, "Extra length of each tape [m]");
   add_number(*command, "--packing-density", options->packing_density, packing_density_range,
              "Density of the packed parachute, 250 (loose) to 400 by hand, 600 with a press [kg/m3]");
-  add_choice(*command, "--units", options->units, {"mm", "in"}, "Unit of the DXF files");
+  add_choice(*command, "--units", options->units, {"mm", "in"},
+             "Unit of the DXF files; the printed table is in SI");
   add_choice(*command, "--paper", options->paper, {"a4", "letter"},
              "Also as PDF at true size on sheets of this paper, with registration marks");
   add_json_option(*command, options->json);

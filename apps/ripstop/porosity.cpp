@@ -243,10 +243,12 @@ void add_calibrate_porosity(CLI::App& parent, int& status) {
   CLI::Option* gammas = add_numbers(*command, "--gammas", options->gammas, from(0.01).up_to(0.99),
                                     "Values of Ergun's porosity");
   add_numbers(*command, "--permeabilities", options->permeabilities, from(1e-3).up_to(9999),
-              "Instead: values of the permeability [CFM/ft2 at half an inch of water], with b = 0")
+              "Instead: values of the permeability [CFM/ft2 at half an inch of water], with b = 0 in dp = a "
+              "v + b v |v|")
       ->excludes(gammas);
   add_number(*command, "--thickness", options->thickness, above(0).up_to(0.1),
-             "Thickness of the cloth in Ergun's law; its default reproduces a and b of [NFM] [m]");
+             "Thickness of the cloth in Ergun's law; its default reproduces a and b of [NFM] in dp = a v + b "
+             "v |v| [m]");
   add_number(*command, "--shifts", options->shifts, from(1).up_to(100),
              "Number of grid alignments along the flow that are averaged");
   command->add_option("--out", options->settings.folder, "Folder")

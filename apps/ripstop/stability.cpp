@@ -64,7 +64,7 @@ class StabilityTerminal : public StabilityObserver {
     progress_.line(heading());
     begin_ = Clock::now();
   }
-  void warned(const std::string& text) override { progress_.line("ripstop: " + text); }
+  void warned(const std::string& text) override { progress_.line("warning: " + text); }
   void progress(std::size_t angle, const std::string& text, double share) override {
     // Angles that an earlier call computed give no estimate of the remaining time.
     const double behind = double(computed_) + std::min(0.99, share), spent = elapsed();

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -14,6 +15,7 @@
 #include "commands.h"
 #include "json_option.h"
 #include "margins.h"
+#include "number_option.h"
 #include "option.h"
 #include "progress.h"
 #include "ripstop/case/assemble.h"
@@ -56,7 +58,7 @@ void print_unsteady(const UnsteadyResult& unsteady) {
                                                 : std::string("not known"),
                         w.deviation));
   print_row("side force",
-            fmt::format("x {:.2g} +- {:.2g}, y {:.2g} +- {:.2g} N; standard deviation {:.2g} N{}",
+            fmt::format("x {:.2g} +- {:.2g} N, y {:.2g} +- {:.2g} N; standard deviation {:.2g} N{}",
                         w.side_force.x, w.side_error.x, w.side_force.y, w.side_error.y, w.side_deviation,
                         w.swing > 0 ? fmt::format(", dominant frequency {:.3g} Hz (Strouhal number {:.2f})",
                                                   w.swing, unsteady.strouhal)
@@ -99,7 +101,7 @@ void print_failure(const ClusterResult& cluster) {
 std::string flow_text(const SteadyIteration& last) {
   const std::string left =
       std::isfinite(last.drag_left)
-          ? fmt::format("; estimated change of drag that is left: {:.2g} %", 100 * last.drag_left)
+          ? fmt::format("; estimated remaining change of the drag: {:.2g} %", 100 * last.drag_left)
           : std::string();
   if (last.flow_averaged > 0)
     return fmt::format("did not converge: mean of the last {} iterations, drag {:.2f} +- {:.2f} N{}",
@@ -145,7 +147,7 @@ void print_result(const SteadyResult& r, const Settings& resolved, const fs::pat
   print_margins(r.margins);
   if (r.cluster) print_failure(*r.cluster);
   row("force balance",
-      fmt::format("air load {:.2f}, cloth load {:.2f}, line load {:.2f}, momentum deficit {:.2f} N",
+      fmt::format("air load {:.2f} N, cloth load {:.2f} N, line load {:.2f} N, momentum deficit {:.2f} N",
                   r.last.fluid_force, r.last.nodal_load, r.last.line_tension, r.last.momentum_deficit));
   if (r.domain && resolved.flow().symmetry != FlowSymmetry::full)
     row("flow domain", r.domain->part == "full"
@@ -190,6 +192,11 @@ int write_scripts(const SteadyArguments& options, const SteadyFolderSettings& se
   return 0;
 }
 
+/// Twice as many, as far as the key allows.
+int more_iterations(int iterations) {
+  return static_cast<int>(std::min(2.0 * iterations, key_range("coupling.max_iterations").high));
+}
+
 int run(const SteadyArguments& options) {
   const Settings resolved = read_settings(options.case_file, options.overrides);
   const fs::path folder = options.out.empty() ? default_run_folder(options.case_file) : options.out;
@@ -218,9 +225,10 @@ int run(const SteadyArguments& options) {
                result.cluster->search->size());
   else if (!result.converged)
     fmt::print(stderr,
-               "not converged within {} coupling iterations: {}; repeat the command with a higher "
-               "coupling.max_iterations to continue the run\n",
-               result.iterations, fmt::join(unmet_criteria(result.last, resolved.coupling()), "; "));
+               "not converged within {} coupling iterations: {}; repeat the command with --set "
+               "coupling.max_iterations={} to continue the run\n",
+               result.iterations, fmt::join(unmet_criteria(result.last, resolved.coupling()), "; "),
+               more_iterations(resolved.coupling().max_iterations));
   return status;
 }
 

@@ -95,7 +95,7 @@ void SteadyTerminal::solved_coarse(const SteadyRun& run, const SteadyResult& res
 }
 
 void SteadyTerminal::warned(const std::string& text) {
-  progress_.line("ripstop: " + text);
+  progress_.line("warning: " + text);
 }
 
 void SteadyTerminal::progress(const SteadyProgress& p, const SteadyState& state) {

@@ -162,7 +162,9 @@ void add_sweep(CLI::App& app, int& status) {
       "           --vary parachute.gap_height_m=0.05,0.07\n"
       "         ripstop sweep examples/stratos-iv/case.toml --speeds 10,15,20,25,30 --batch slurm");
   add_sweep_options(*command, *options);
-  command->add_option("--speeds", options->speeds, "Nominal speeds [m/s], for example 10,15,20")
+  command
+      ->add_option("--speeds", options->speeds,
+                   "Airspeeds [m/s], in a wind tunnel the nominal speeds, for example 10,15,20")
       ->delimiter(',');
   command->add_option("--vary", options->vary, "KEY=V1,V2,...: values of any key of the case; repeatable")
       ->expected(1)

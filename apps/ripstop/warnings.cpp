@@ -1,6 +1,7 @@
 #include "warnings.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -10,6 +11,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/visible.h"
 #include "ripstop/core/wrap.h"
+#include "ripstop/run/quality.h"
 
 namespace ripstop::cli {
 
@@ -26,8 +28,19 @@ void print_warnings(const std::vector<std::string>& warnings) {
 
 int print_result_warnings(const std::optional<std::vector<std::string>>& warnings,
                           const std::optional<bool>& usable) {
-  print_warnings(warnings.value_or(std::vector<std::string>{}));
-  return usable.value_or(true) ? 0 : static_cast<int>(ExitCode::not_converged);
+  const std::vector<std::string> all = warnings.value_or(std::vector<std::string>{});
+  print_warnings(all);
+  if (usable.value_or(true)) return 0;
+  std::vector<std::string> reasons;
+  for (const std::string& text : all)
+    if (const std::string reason = reason_of_refusal(text); !reason.empty()) reasons.push_back(reason);
+  if (reasons.empty()) reasons.emplace_back("see the warnings above");
+  fmt::print(
+      stderr, "{}\n",
+      wrapped(visible(fmt::format("the result {} (exit code {}): {}", refused_text,
+                                  static_cast<int>(ExitCode::not_converged), fmt::join(reasons, "; "))),
+              wrap_width(STDERR_FILENO)));
+  return static_cast<int>(ExitCode::not_converged);
 }
 
 void print_deprecations(const std::vector<std::string>& deprecations) {

@@ -66,12 +66,12 @@ void add_errors(py::module_& module) {
                      "One mistake in an input: its place, key, value and the allowed values.")
       .def("__str__", [](const Problem& problem) { return to_text(problem); });
   // The module is never unloaded, nor are its types.
-  static const py::handle plain =
-      make_exception(module, "Error", PyExc_Exception,
-                     "Error of Ripstop, with the message that the program prints.\n\nexit_code: exit status "
-                     "of the program: 2 usage or case file, 3 bad input data,\n"
-                     "4 not converged, 5 diverged, 6 external solver, 7 input/output,\n"
-                     "8 not enough memory or threads.");
+  static const py::handle plain = make_exception(
+      module, "Error", PyExc_Exception,
+      "Error of Ripstop, with the message that the program prints.\n\nexit_code: exit status "
+      "of the program: 2 usage or case file, 3 bad input data,\n"
+      "4 not converged, or outside a limit of quality, 5 diverged, 6 external solver, 7 input/output,\n"
+      "8 lack of memory or threads.");
   static const py::handle input = make_exception(
       module, "InputError", plain,
       "All mistakes in an input file or a setting, one per line.\n\nproblems: list of Problem.");

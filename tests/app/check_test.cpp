@@ -139,7 +139,7 @@ TEST_F(Check, OptionsChangeTheCaseAndAreNamedWhenTheyAreWrong) {
   EXPECT_EQ(nlohmann::json::parse(fine.output)["density_kg_m3"], 1.199);
   const Finished wrong = ripstop_with({"check", stratos, "--speed", "500"});
   EXPECT_EQ(wrong.code, 2);
-  EXPECT_NE(wrong.output.find("--speed: flow.speed_m_s = 500: must be above 0 and at most 100"),
+  EXPECT_NE(wrong.output.find("--speed: flow.speed_m_s = 500: must be above 0 and at most 100 m/s"),
             std::string::npos)
       << wrong.output;
 }

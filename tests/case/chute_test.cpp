@@ -391,7 +391,7 @@ TEST(Chute, AShapeThatNoTypeHasIsRefusedWithItsSections) {
   for (MeridianPoint& p : file.sections[0].points) p.r = 0.5 + 0.1 * std::cos(40 * p.y);  // waists
   const std::string refusal = refusal_of([&] { import_chute(file, {}, "waist.chute"); }, ExitCode::bad_data);
   EXPECT_EQ(refusal.find("waist.chute: " + file.sections[0].place + ": "), 0u) << refusal;
-  EXPECT_NE(refusal.find("no canopy type"), std::string::npos) << refusal;
+  EXPECT_NE(refusal.find("no canopy family"), std::string::npos) << refusal;
 }
 
 TEST(Chute, AKeyThatIsThereTwiceIsRefused) {

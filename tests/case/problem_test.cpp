@@ -53,7 +53,7 @@ TEST(Mistakes, AnEmptyFileMissesItsTables) {
 TEST(Mistakes, AnOptionIsNamedInsteadOfALine) {
   const Outcome outcome = outcome_of(valid_case, {.speed = 500, .grid = std::array{20, 2, 30}, .ranks = 0});
   ASSERT_EQ(outcome.problems.size(), 3u) << outcome.message;
-  EXPECT_NE(outcome.message.find("--speed: flow.speed_m_s = 500: must be above 0 and at most 100"),
+  EXPECT_NE(outcome.message.find("--speed: flow.speed_m_s = 500: must be above 0 and at most 100 m/s"),
             std::string::npos)
       << outcome.message;
   EXPECT_NE(outcome.message.find("--grid: flow.cells[1] = 2: must be at least 4"), std::string::npos);
@@ -101,7 +101,7 @@ TEST(Mistakes, ABrokenMaterialFileIsBadDataAndNamesTheFile) {
   } catch (const InputError& error) {
     EXPECT_EQ(error.code(), ExitCode::bad_data);
     EXPECT_EQ(error.what(),
-              file.string() + ":3:23: linear_density_kg_m = -1: must be above 0 and at most 100");
+              file.string() + ":3:23: linear_density_kg_m = -1: must be above 0 and at most 100 kg/m");
   }
   std::filesystem::remove(file);
 }

@@ -36,7 +36,7 @@ TEST(UnmetCriteria, ListsOnlyUnmetCriteria) {
   now = converged(), now.regularisation_share = 0.05;
   only(now, "by 5 % of the load (limit 2 %)");
   now = converged(), now.nodal_load = 90;
-  only(now, "differ by more than 1 %");
+  only(now, "air load, cloth load and line load differ by 10 % (limit 1 %)");
   now = converged(), now.flow_converged = false;
   only(now, "the flow has not converged");
 }

@@ -41,6 +41,25 @@ TEST(Quality, EveryMeasureWarnsBeyondItsFirstLimitAndIsRefusedBeyondItsSecond) {
   }
 }
 
+// A value within the limit must not be refused as an input by these words, see used_run.cpp.
+TEST(Quality, AWarningNamesBothLimitsAndItsReasonIsTheMeasureWithItsValue) {
+  const std::string warned = judge({{"energy_residual", 0.0712}}).warnings.at(0);
+  EXPECT_EQ(warned.find("residual of the energy balance: 7.12 % of the work (values above 5 % cause a "
+                        "warning, above 20 % the result is not usable); reduce"),
+            0u)
+      << warned;
+  EXPECT_EQ(warned.find(refused_text), std::string::npos) << warned;
+  EXPECT_EQ(reason_of_refusal(warned), "");
+  const std::string refused = judge({{"energy_residual", 0.20004}}).warnings.at(0);
+  EXPECT_EQ(refused.find("residual of the energy balance: 20.004 % of the work, the result must not be used "
+                         "(limit 20 %; values above 5 % cause a warning); reduce"),
+            0u)
+      << refused;
+  EXPECT_EQ(reason_of_refusal(refused), "residual of the energy balance: 20.004 % of the work");
+  EXPECT_EQ(reason_of_refusal("2 of 5 openings must not be used"), "2 of 5 openings must not be used");
+  EXPECT_EQ(reason_of_refusal("the result must not be used"), "the result must not be used");
+}
+
 // Balances reported by two users: 46.6 and 32.7 % had no consequence; openings on default cells have 2.7 %.
 TEST(Quality, AnOpenEnergyBalanceIsNotUsable) {
   EXPECT_FALSE(judge({{"energy_residual", 0.46633}}).usable);

@@ -23,9 +23,11 @@ const Kind& material(const Case& given, const std::string& name) {
 void describe(Fields& fields, Measured& measured) {
   fields
       .number("nominal_speed_m_s", measured.nominal_speed_m_s, above(0).up_to(100),
-              "Nominal speed of the condition.")
+              "Nominal speed of the wind tunnel.")
       .required();
-  fields.number("measured_speed_m_s", measured.measured_speed_m_s, above(0).up_to(100), "Measured speed.")
+  fields
+      .number("measured_speed_m_s", measured.measured_speed_m_s, above(0).up_to(100),
+              "Measured speed of the wind tunnel.")
       .required();
   fields.number("density_kg_m3", measured.density_kg_m3, above(0).up_to(20), "Density of the air.")
       .required();

@@ -398,6 +398,12 @@ ChuteFile read_chute(std::string_view text, const std::string& file) {
   try {
     json = parsed(text, file);
   } catch (const Json::exception& error) {
+    const std::size_t begin = text.find_first_not_of(" \t\r\n");
+    if (!file.ends_with(".chute") && (begin == std::string_view::npos || text[begin] != '{'))
+      throw Error(
+          ExitCode::bad_data,
+          fmt::format("{}: is not an openchute design (.chute, JSON) nor an OpenRocket file (.ork, .orc)",
+                      file));
     throw Error(ExitCode::bad_data, fmt::format("{}: not JSON: {}", file, error.what()));
   }
   return Reader({&json, "", &file}).read();

@@ -436,7 +436,7 @@ ImportedCase import_chute(const ChuteFile& file, const ChuteImportOptions& optio
   std::vector<std::string> places;
   for (const ChuteSection& section : file.sections) places.push_back(section.place);
   throw Error(ExitCode::bad_data,
-              fmt::format("{}: {}: no canopy type of Ripstop has this shape. As \"{}\": {}", source,
+              fmt::format("{}: {}: no canopy family of Ripstop has this shape. As \"{}\": {}", source,
                           fmt::join(places, ", "), direct.type, problem));
 }
 

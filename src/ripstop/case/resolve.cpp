@@ -377,7 +377,7 @@ SettingsValues settings_values(const Case& given) {
   Follow follow(values);
   const Design& parachute = given.parachute;
   follow("parachute.nominal_area_m2", written.parachute.nominal_area_m2, nominal_area(parachute),
-         "definition of the canopy type");
+         "definition of the canopy family");
   follow("parachute.lines.onto_disk_m", written.parachute.lines.onto_disk_m, line_length_on_disk(parachute),
          "to the edge of the vent");
   resolve_tape(follow, given, written);

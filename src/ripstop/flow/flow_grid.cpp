@@ -136,10 +136,12 @@ FlowGrid graded(const FlowGrid& box, Vec3 core_low, Vec3 core_high, double growt
     int core = n;
     while (core > 0 && needed(core) > n) --core;
     if (core < 4) {
-      throw Error(ExitCode::usage,
-                  fmt::format("flow grid: {} cells along {} leave {} in the core with a growth of {}; at "
-                              "least {} cells are needed for 4 (or a larger growth, or a larger core)",
-                              n, name, core, growth, needed(4)));
+      throw Error(
+          ExitCode::usage,
+          fmt::format("flow grid: {0} cells along {1} leave {2} cells in the core region at a growth of "
+                      "{3}; at least 4 are required: use {4} or more cells along {1}, a larger growth, "
+                      "or a larger core region",
+                      n, name, core, growth, needed(4)));
     }
     const double width = (to - from) / core;
     int before = cells_outside(width, from - low, growth), after = cells_outside(width, high - to, growth);

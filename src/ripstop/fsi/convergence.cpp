@@ -51,8 +51,8 @@ std::vector<std::string> unmet_criteria(const SteadyIteration& last, const Coupl
     add("slack cloth is restrained to the previous shape by {} % of the load (limit {} %)",
         100 * last.regularisation_share, 100 * regularisation_tolerance);
   if (!ledger_closes(last, ledger_tolerance))
-    unmet.push_back(
-        fmt::format("air load, cloth load and line load differ by more than {:g} %", 100 * ledger_tolerance));
+    add("air load, cloth load and line load differ by {} % (limit {} %)", 100 * ledger_gap(last),
+        100 * ledger_tolerance);
   if (!last.flow_converged && !(last.flow_averaged > 0 && momentum_closes(last, ledger_tolerance)))
     unmet.emplace_back("the flow has not converged");
   if (unmet.empty()) unmet.emplace_back("the last flow solution was not solved to the full tolerance");

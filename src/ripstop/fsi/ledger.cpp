@@ -51,6 +51,12 @@ void enter_flow(SteadyIteration& now, const SteadyState& state, const FlowField&
                         : std::abs(now.fluid_force / state.iterations.back().fluid_force - 1);
 }
 
+double ledger_gap(const SteadyIteration& now) {
+  const double nodes = std::abs(now.nodal_load / now.fluid_force - 1),
+               lines = std::abs(now.line_tension / now.fluid_force - 1);
+  return nodes > lines || std::isnan(nodes) ? nodes : lines;
+}
+
 bool ledger_closes(const SteadyIteration& now, double tolerance) {
   return within(now.nodal_load, now.fluid_force, tolerance) &&
          within(now.line_tension, now.fluid_force, tolerance);

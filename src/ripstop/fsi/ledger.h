@@ -27,6 +27,8 @@ void enter_flow(SteadyIteration& now, const SteadyState& state, const FlowField&
 /// iterations or in time also between fluid force and momentum deficit: a wake that still grows keeps some of it.
 inline constexpr double ledger_tolerance = 0.01;
 
+/// The larger of the relative differences of nodal load and line tension from the fluid force.
+double ledger_gap(const SteadyIteration& now);
 /// Fluid force, nodal load and line tension agree within `tolerance`.
 bool ledger_closes(const SteadyIteration& now, double tolerance);
 /// Fluid force and momentum deficit agree within `tolerance`.

@@ -58,7 +58,7 @@ void each_member(T& i, Visit&& visit) {
   visit("cloth_residual", i.cloth_residual);
   visit("cloth_hold_pa_m", i.regularisation);
   visit("cloth_held", i.regularisation_share);
-  visit("flow_iterations", i.flow_iterations, Shown{"flow|steps", 5, "{:.0f}"});
+  visit("flow_iterations", i.flow_iterations, Shown{"flow|iter.", 5, "{:.0f}"});
   visit("flow_residual", i.flow_residual);
   visit("flow_converged", i.flow_converged);
   visit("flow_averaged", i.flow_averaged);
@@ -67,7 +67,7 @@ void each_member(T& i, Visit&& visit) {
   visit("in_time", i.in_time);
   visit("drag_error_n", i.drag_error);
   visit("cut_cells", i.cut_cells);
-  visit("wall_time_s", i.wall_time, Shown{"|time", 5, ""});
+  visit("wall_time_s", i.wall_time, Shown{"time|m:ss", 5, ""});
 }
 
 }  // namespace ripstop::inline fsi

@@ -1,4 +1,4 @@
-// Known data of a canopy type, for comparison with computed values.
+// Known data of a canopy family, for comparison with computed values.
 #pragma once
 
 #include <array>

@@ -8,11 +8,33 @@
 #include <stdexcept>
 
 #include "ripstop/core/words.h"
+#include "ripstop/fsi/ledger.h"
 
 namespace ripstop::inline run {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
+static_assert(ledger_tolerance == 0.01, "the remedy of ledger_gap");
+
+/// The value with both limits. The unit of a limit is without "of the work".
+std::string compared(const QualityLimit& limit, double value, bool refused) {
+  const auto [apart_from_warn, warn] = rounded_apart(limit.shown_as * value, limit.shown_as * limit.warn);
+  const auto [apart_from_refuse, refuse] =
+      rounded_apart(limit.shown_as * value, limit.shown_as * limit.refuse);
+  const std::string shown = std::max(apart_from_warn, apart_from_refuse,
+                                     [](const auto& a, const auto& b) { return a.size() < b.size(); }) +
+                            limit.unit;
+  const std::string unit = std::string_view(limit.unit).starts_with(" %") ? " %" : limit.unit;
+  const char* side = limit.at_least ? "below" : "above";
+  if (refused && limit.refuse != never)
+    return fmt::format("{}, the result {} (limit {}{}; values {} {}{} cause a warning)", shown, refused_text,
+                       refuse, unit, side, warn, unit);
+  if (refused) return fmt::format("{}, the result {}", shown, refused_text);
+  if (limit.refuse == never)
+    return fmt::format("{} (values {} {}{} cause a warning)", shown, side, warn, unit);
+  return fmt::format("{} (values {} {}{} cause a warning, {} {}{} the result is not usable)", shown, side,
+                     warn, unit, side, refuse, unit);
+}
 
 }  // namespace
 
@@ -39,10 +61,10 @@ const std::vector<QualityLimit>& quality_limits() {
       {"contact_depth", "compression of layers of cloth in contact", 0.6, never, false, 100,
        " % of their distance", "raise inflation.contact_pa"},
       {"ledger_gap", "difference of air load, cloth load and line load", 0.02, 0.1, false, 100, " %",
-       "let the coupling converge (coupling.max_iterations)"},
+       "let the coupling converge, which requires at most 1 % in a steady flow (coupling.max_iterations)"},
       {"momentum_deficit_gap", "difference of momentum deficit and air load", 0.05, 0.2, false, 100, " %",
        "lower flow.residual or raise flow.max_iterations"},
-      {"drag_left", "estimated change of drag that the last flow has left", 0.01, never, false, 100, " %",
+      {"drag_left", "estimated remaining change of the drag", 0.01, never, false, 100, " %",
        "raise flow.max_iterations, or compute the flow in time (flow.unsteady)"},
       {"canopy_asymmetry", "deviation of the canopy from its mirror image", 0.005, never, false, 100,
        " % of its projected diameter", "compare with the full flow domain (flow.symmetry = \"full\")"},
@@ -60,6 +82,15 @@ const QualityLimit& quality_limit(std::string_view key) {
   return *found;
 }
 
+std::string reason_of_refusal(const std::string& warning) {
+  const std::size_t end = warning.find(std::string("the result ") + refused_text);
+  if (end == std::string::npos) return warning.find(refused_text) == std::string::npos ? "" : warning;
+  std::string reason = warning.substr(0, end);
+  while (!reason.empty() && std::string_view(" ,:;").find(reason.back()) != std::string_view::npos)
+    reason.pop_back();
+  return reason.empty() ? warning : reason;
+}
+
 bool QualityLimit::beyond(double value, double bound) const {
   constexpr double rounding = 1 - 1e-9;
   return !std::isfinite(value) || (at_least ? value < rounding * bound : value > bound);
@@ -72,11 +103,8 @@ Judgement judge(const std::vector<QualityValue>& values) {
     if (!limit.beyond(v.value, limit.warn)) continue;
     const bool refused = limit.beyond(v.value, limit.refuse);
     judgement.usable = judgement.usable && !refused;
-    const auto [value, acceptable] = rounded_apart(limit.shown_as * v.value, limit.shown_as * limit.warn);
     judgement.warnings.push_back(
-        fmt::format("{}: {}{}, {} {}{} is acceptable; {}{}", limit.name, value, limit.unit,
-                    limit.at_least ? "at least" : "up to", acceptable, limit.unit,
-                    refused ? fmt::format("the result {}; ", refused_text) : "", limit.remedy));
+        fmt::format("{}: {}; {}", limit.name, compared(limit, v.value, refused), limit.remedy));
   }
   return judgement;
 }

@@ -30,6 +30,10 @@ const std::vector<QualityLimit>& quality_limits();
 /// words also identify the reason why a run is not accepted as an input.
 inline constexpr const char* refused_text = "must not be used";
 
+/// The part of a warning before these words, with the measure and its value, or the whole warning; empty for a
+/// warning without them.
+std::string reason_of_refusal(const std::string& warning);
+
 /// Throws std::logic_error for a key that the list does not have.
 const QualityLimit& quality_limit(std::string_view key);
 

@@ -1,4 +1,4 @@
-// The drawings of the canopy types in the guide, with the keys of their parameters.
+// The drawings of the canopy families in the guide, with the keys of their parameters.
 #include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>

@@ -10,6 +10,7 @@
 #include "ripstop/parachute/profile.h"
 #include "ripstop/run/descent/recovery.h"
 #include "ripstop/run/opening/fastest.h"
+#include "ripstop/run/quality.h"
 
 namespace ripstop {
 namespace {
@@ -104,6 +105,14 @@ TEST(Warnings, AGridIsWarnedOfWhereTheAirsOwnLoadFindsFewerThanTenCellsAcrossThe
   EXPECT_EQ(told[0].find("6.2 flow cells across the inflated canopy: with fewer than 10 "), 0u) << told[0];
   EXPECT_EQ(case_warnings(resolve(given)).size(),
             mesh_warnings(resolve(given)).size() + 1 + porosity_warnings(resolve(given)).size());
+  const std::vector<std::string> refused = cells(3);
+  ASSERT_EQ(refused.size(), 1u);
+  EXPECT_NE(refused[0].find(
+                " flow cells across the inflated canopy: the result must not be used (limit 4; fewer than "
+                "10 cause a warning); increase flow.cells"),
+            std::string::npos)
+      << refused[0];
+  EXPECT_TRUE(reason_of_refusal(refused[0]).ends_with(" flow cells across the inflated canopy"));
   given.coupling.load = CanopyLoad::uniform;
   EXPECT_TRUE(grid_warnings(resolve(given)).empty());
 }

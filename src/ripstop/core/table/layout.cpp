@@ -160,11 +160,13 @@ class Reader {
                          "as \"force [N]\", or give the columns (known quantities: {})",
                          what, quantity_names()));
     }
-    if (header) refuse(file_, header->line, "a header, but no measurements below it");
+    const std::string needed =
+        "; a table needs a header such as \"time [s],force [N]\", and rows of numbers below it";
+    if (header) refuse(file_, header->line, "a header, but no measurements below it" + needed);
     if (last_text)
       refuse(file_, last_text->line,
-             "no measurements: the file has text, but no header with numbers below it");
-    refuse(file_, 0, "empty: no header, no measurements");
+             "no measurements: the file has text, but no header with numbers below it" + needed);
+    refuse(file_, 0, "empty: no header, no measurements" + needed);
   }
 
   const std::vector<Row>& rows_;

@@ -22,6 +22,12 @@ std::string joined(const std::string& prefix, const std::string& key) {
   return prefix.empty() ? key : prefix + "." + key;
 }
 
+/// "above 0 and at most 100 m/s", with the unit in the name of the key.
+std::string with_unit(const std::string& range, const std::string& key) {
+  const std::string unit = unit_of_key(key);
+  return unit.empty() ? range : range + " " + unit;
+}
+
 std::string element(const std::string& name, std::size_t index) {
   return fmt::format("{}[{}]", name, index);
 }
@@ -343,7 +349,8 @@ void Reader::table(const Fields& fields, const Node& node, const std::string& pr
   for (const Field& field : all) {
     if (!field.is_required || names_base || node.find(field.key)) continue;
     std::string message = "is missing";
-    if (const std::string range = field.range.text(); !range.empty()) message += "; give a number " + range;
+    if (const std::string range = field.range.text(); !range.empty())
+      message += "; give a number " + with_unit(range, field.key);
     if (std::holds_alternative<Subtable>(field.value))
       message = "the table is missing; write [" + joined(prefix, field.key) + "]";
     if (const auto* kind = std::get_if<Kind>(&field.value))
@@ -386,7 +393,7 @@ class Checker {
   void number(const Field& field, double value, const std::string& name) {
     if (field.range.contains(value) || !findings_.sound({name})) return;
     const std::string allowed = field.range.text();
-    findings_.add(name, value, allowed, "must be " + allowed);
+    findings_.add(name, value, allowed, "must be " + with_unit(allowed, field.key));
   }
   void check(const Field& field, const double* value, const std::string& name, const std::string&) {
     number(field, *value, name);

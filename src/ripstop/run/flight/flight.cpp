@@ -161,7 +161,7 @@ void take_quality(FlightResult& r, const Settings& resolved) {
   judgement.add(strain_warnings(resolved, r.stress.strain));
   r.warnings = std::move(judgement.warnings);
   if (failed(r.ended_by)) {
-    r.warnings.push_back(r.ended_by + "; no mean is given");
+    r.warnings.push_back(fmt::format("{}: the result {}; no mean is given", r.ended_by, refused_text));
     judgement.usable = false;
   } else {
     if (r.peaks < least_half_swings)

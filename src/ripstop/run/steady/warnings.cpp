@@ -22,10 +22,10 @@ std::vector<std::string> mesh_warnings(const Settings& resolved) {
   const int asked = resolved.parachute().mesh.cloth_nodes;
   const int enough = experience(resolved.parachute()).cloth_nodes;
   if (asked >= enough) return {};
-  return {
-      fmt::format("parachute.mesh.cloth_nodes = {}: the projected diameter of this type can be more than 1 % "
-                  "too large with fewer than {} nodes (docs/guide/canopies.md)",
-                  asked, enough)};
+  return {fmt::format(
+      "parachute.mesh.cloth_nodes = {}: the projected diameter of this canopy family can be more than 1 % "
+      "too large with fewer than {} nodes (docs/guide/canopies.md)",
+      asked, enough)};
 }
 
 std::vector<std::string> grid_warnings(const Settings& resolved) {
@@ -33,12 +33,19 @@ std::vector<std::string> grid_warnings(const Settings& resolved) {
   if (resolved.coupling().load != CanopyLoad::of_flow) return {};
   const double across = cells_across(resolved);
   if (!enough.beyond(across, enough.warn)) return {};
-  const auto [cells, least] = rounded_apart(across, enough.warn, 2);
+  const bool refused = enough.beyond(across, enough.refuse);
+  const auto [cells, limit] = rounded_apart(across, refused ? enough.refuse : enough.warn, 2);
+  const std::string meaning =
+      refused ? fmt::format("the result {} (limit {}; fewer than {:g} cause a warning)", refused_text, limit,
+                            enough.warn)
+              : fmt::format(
+                    "with fewer than {} the local load becomes discontinuous as cloth crosses grid "
+                    "cells, and the coupling may not converge",
+                    limit);
   return {
-      fmt::format("{} flow cells across the inflated canopy: with fewer than {} the local load becomes "
-                  "discontinuous as cloth crosses grid cells, and the coupling may not converge; increase "
-                  "flow.cells, or set coupling.load = \"uniform\"",
-                  cells, least)};
+      fmt::format("{} flow cells across the inflated canopy: {}; increase flow.cells, or set coupling.load = "
+                  "\"uniform\"",
+                  cells, meaning)};
 }
 
 namespace {

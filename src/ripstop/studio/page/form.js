@@ -66,7 +66,7 @@ class Form {
     this.body.replaceChildren(...this.sections.map((section) => section.node));
   }
 
-  /** The parameters of a canopy type. */
+  /** The parameters of a canopy family. */
   static drawing(drawings, type) {
     const text = drawings.types[type];
     return element("img", { class: "drawing", hidden: !text, alt: `Drawing of the parameters of the type ${type}`, src: text ? `data:image/svg+xml;charset=utf-8,${encodeURIComponent(text)}` : undefined });
