@@ -71,7 +71,7 @@ void add_errors(py::module_& module) {
       "Error of Ripstop, with the message that the program prints.\n\nexit_code: exit status "
       "of the program: 2 usage or case file, 3 bad input data,\n"
       "4 not converged, or outside a limit of quality, 5 diverged, 6 external solver, 7 input/output,\n"
-      "8 lack of memory or threads.");
+      "8 insufficient memory or threads.");
   static const py::handle input = make_exception(
       module, "InputError", plain,
       "All mistakes in an input file or a setting, one per line.\n\nproblems: list of Problem.");
