@@ -13,9 +13,11 @@ namespace ripstop::cli {
 
 void print_stresses(double max_line_tension, const StressPeak& stress) {
   print_row("maximum line tension", fmt::format("{:.1f} N", max_line_tension));
-  print_row("maximum von Mises stress", fmt::format("{:.0f} N/m ({})", stress.von_mises, stress.patch));
+  print_row("maximum von Mises stress",
+            fmt::format("{:.0f} N/m, mean over 50 mm ({})", stress.von_mises, stress.patch));
   print_row("maximum yarn force",
-            fmt::format("{:.0f} N/m warp, {:.0f} N/m weft; {:.0f} % of the cloth wrinkled, {:.0f} % slack",
+            fmt::format("{:.0f} N/m warp, {:.0f} N/m weft, means over 50 mm; {:.0f} % of the cloth wrinkled, "
+                        "{:.0f} % slack",
                         stress.warp, stress.weft, 100 * stress.wrinkled, 100 * stress.slack));
 }
 
