@@ -92,7 +92,7 @@ void print_stage(const StageLoads& s, const LoadResult& r, const std::string& kn
 void print_snatch(const SnatchResult& s) {
   print_text("snatch load {:.1f} N (speed difference {:.3g} m/s: {}; {}), {:.1f} N per line{}\n", s.load,
              s.speed_difference, s.from, s.model, s.line_load,
-             s.line_margin ? fmt::format(", breaking load / snatch load {:.2f}", *s.line_margin) : "");
+             s.line_margin ? fmt::format("; lines: breaking load / snatch load {:.2f}", *s.line_margin) : "");
   if (s.riser_margin) print_text("riser: breaking load / snatch load {:.2f}\n", *s.riser_margin);
   if (s.other_load)
     print_text("snatch load {:.1f} N (speed difference {:.3g} m/s: [deployment] of the case; {})\n",
@@ -159,7 +159,15 @@ void print_result(const LoadResult& r, const fs::path& folder) {
                r.smallest_margin ? fmt::format(": margin of safety {}, {}", margin_text(*r.smallest_margin),
                                                r.smallest_margin_member)
                                  : "");
-  if (r.design_method == infinite_mass_method)
+  if (r.stages.size() > 1)
+    print_text(
+        "  The speed of a later stage is that of the trajectory: the design load requires that the reefed "
+        "stages "
+        "decelerate the payload as computed. Without reefing the infinite-mass load at line stretch is "
+        "{:.1f} N.\n",
+        r.opening_coefficient * r.design_drag_coefficient * r.reference_area * 0.5 * r.density * r.speed *
+            r.speed);
+  else if (r.design_method == infinite_mass_method)
     print_text(
         "  The design load is computed without a filling distance. Methods with a smaller load assume "
         "one.\n");

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -45,13 +46,16 @@ void print_margins(const std::optional<Margins>& margins, std::optional<double> 
                                                    : "; under " + under));
   if (!margins->weakest.empty()) {
     const Margin& m = *weakest(*margins);
+    const bool with_cloth = std::any_of(margins->members.begin(), margins->members.end(),
+                                        [](const Margin& each) { return each.member == "cloth"; });
     print_row("weakest member",
               fmt::format("{}{}: {} {} {} times safety factor {:.3g}, allowable load {} {} ({:.0f} % of the "
-                          "{}); margin of safety {}{}",
+                          "{}); margin of safety {}{}{}",
                           largest ? "under the design load, " : "", m.member, m.load_from.value_or("load"),
                           rounded(m.load), m.unit, *m.used * *m.strength * m.knock_down / m.load,
                           rounded(*m.strength * m.knock_down), m.unit, 100 * m.knock_down, m.strength_from,
-                          margin_text(*m.margin), *m.margin < 0 ? ": ALLOWABLE LOAD EXCEEDED" : ""));
+                          margin_text(*m.margin), *m.margin < 0 ? ": ALLOWABLE LOAD EXCEEDED" : "",
+                          with_cloth ? "" : "; the cloth is not checked"));
   }
 }
 
@@ -73,8 +77,9 @@ void print_separation() {
   print_text(
       "Not included: the load when sections of the rocket separate. A shock cord with the stiffness k "
       "(stiffness_n) and the length L (length_m) carries F = sqrt(2 E k / L). For sections of masses "
-      "m1 and m2 that separate at the speed v, E = m1 m2 v^2 / (2 (m1 + m2)). If F exceeds the rated load of "
-      "required hardware, design the hardware for F.\n");
+      "m1 and m2 that separate at the speed v, E = m1 m2 v^2 / (2 (m1 + m2)). If F exceeds the rated load in "
+      "the row "
+      "'required hardware', design the hardware for F.\n");
 }
 
 std::string packed_text(double mass, double volume) {
@@ -92,6 +97,7 @@ std::string safe_speed_text(const SafeSpeed& s) {
   const auto text = [](const std::optional<double>& speed) {
     return speed ? fmt::format("{:.1f}", *speed) : fmt::format("above {:g}", fastest_deployment);
   };
+  if (!s.lowest) return fmt::format("no limit up to {:g} m/s (Mach 0.8)", fastest_deployment);
   return fmt::format("{} m/s ({} m/s without the uncertainty of the load), limited by {}", text(s.lowest),
                      text(s.speed), s.member);
 }

@@ -51,8 +51,10 @@ void print_stage(const RecoveryStage& s, bool wind) {
       fmt::format("{:.2f} s after apogee, {} m above the ground, at {}, path {} deg below the "
                   "horizon, {:.4g} kg/m3 (standard atmosphere)",
                   s.time, rounded(s.height), range_text(s.speed, "m/s"), rounded(s.path_angle), s.density));
-  print_row("opening load", fmt::format("{} to {} N by the applicable methods; filling time {:.3g} s",
-                                        rounded(s.lowest_load), rounded(s.highest_load), s.filling_time));
+  print_row(
+      "opening load",
+      fmt::format("{} to {} N by the applicable methods, if the canopy fills in {:.3g} s; not for design",
+                  rounded(s.lowest_load), rounded(s.highest_load), s.filling_time));
   print_row(
       "design load",
       fmt::format("{}: {}", range_text({s.design_load, s.least_design_load, s.largest_design_load}, "N"),
@@ -80,7 +82,7 @@ void print_stage(const RecoveryStage& s, bool wind) {
   print_row("packed", fmt::format("{}; mass {:.3g} kg", packed_text(s.mass, s.packed_volume), s.mass));
   if (s.bay_length)
     print_row("length in the bay",
-              fmt::format("{:.3g} m at that density, {:.3g} m packed loosely", *s.bay_length,
+              fmt::format("{:.3g} m at this density, {:.3g} m packed loosely", *s.bay_length,
                           *s.bay_length * std::max(1.0, s.mass / (loosely_packed * s.packed_volume))));
 }
 

@@ -76,8 +76,11 @@ void print_result(const SizeResult& r, const fs::path& file, const fs::path& pag
         fmt::format("{:.0f} N with the uncertainty of {:.0f} % ({}): margin of safety {}, {}",
                     r.highest_design_load, 100 * r.load_uncertainty, r.load_uncertainty_from,
                     margin_text(*r.smallest_margin), r.smallest_margin_member));
-  row("opening load", fmt::format("{:.0f} to {:.0f} N by the applicable methods (see ripstop load)",
-                                  r.opening_load_low, r.opening_load));
+  row("opening load",
+      fmt::format(
+          "{:.0f} to {:.0f} N if the canopy fills over {:.3g} D0 (applicable methods of ripstop load); "
+          "not for design",
+          r.opening_load_low, r.opening_load, r.opening.front().filling_constant));
   if (!r.opening.front().caution.empty()) row("", r.opening.front().caution);
   print_margins(r.margins, r.highest_design_load / r.design_load);
   for (const SizeCheck& c : r.checks)

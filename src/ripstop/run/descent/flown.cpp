@@ -72,11 +72,10 @@ DescentDrag descent_drag(const Settings& resolved, const DragCoefficient& drag) 
     which = "computed flights of other families", found = ratios([](const FlownDrag&) { return true; });
   const auto [least, most] = std::minmax_element(found.begin(), found.end());
   std::string times;
-  if (*least < 1) times = fmt::format("{:.2f} at the lower end", *least);
-  if (*most > 1) times += fmt::format("{}{:.2f} at the upper end", times.empty() ? "" : " and ", *most);
-  return {
-      low * std::min(1.0, *least), high * std::max(1.0, *most),
-      times.empty() ? own : fmt::format("{}, times {} for the motion in descent ({})", own, times, which)};
+  if (*least < 1) times = fmt::format("the lower end also times {:.2f}", *least);
+  if (*most > 1) times += fmt::format("{}the upper end also times {:.2f}", times.empty() ? "" : ", ", *most);
+  return {low * std::min(1.0, *least), high * std::max(1.0, *most),
+          times.empty() ? own : fmt::format("{}; {}, for the motion in descent ({})", own, times, which)};
 }
 
 }  // namespace ripstop::inline run

@@ -146,7 +146,7 @@ std::string printed(const std::optional<double>& speed) {
 
 /// Which speed to use. Infinite mass and the finite-mass methods may differ by a factor of three and more, as a large
 /// canopy slows a light payload down during a long filling.
-std::string advice_of(const FastestResult& r, double filling_distance) {
+std::string advice_of(const FastestResult& r, double filling_distance, bool caution) {
   const SafeSpeed& design = r.design();
   if (design.unsafe_at && r.snatch && r.snatch->largest() > design.load)
     return fmt::format(
@@ -161,9 +161,10 @@ std::string advice_of(const FastestResult& r, double filling_distance) {
         "{}, the safe speed of the computed opening. It is valid for the deployment of that run",
         printed(design.lowest));
   std::string text = fmt::format(
-      "{}, the safe speed for infinite mass, in which the speed does not decrease during "
+      "{}{}, the safe speed for infinite mass, in which the speed does not decrease during "
       "filling. Not included: failure of a reefing line{} and the stress of the cloth",
-      printed(design.lowest), r.snatch ? "" : ", the snatch load");
+      caution ? "at most " : "", printed(design.lowest), r.snatch ? "" : ", the snatch load");
+  if (caution) text += ". The payload is heavy: compute or measure the opening first (see the warning)";
   if (r.snatch && r.snatch->largest() > (1 + r.load_uncertainty) * design.load)
     text += fmt::format(". At this speed the snatch load of {} N is larger than the opening load",
                         rounded(r.snatch->largest()));
@@ -172,17 +173,17 @@ std::string advice_of(const FastestResult& r, double filling_distance) {
   for (const SafeSpeed& s : r.methods) {
     if (s.method == infinite_mass_method || !s.applies) continue;
     others = true;
-    if (s.speed && low) low = std::min(*low, *s.speed);
-    high = s.speed && high ? std::optional(std::max(*high, *s.speed)) : std::nullopt;
+    if (s.lowest && low) low = std::min(*low, *s.lowest);
+    high = s.lowest && high ? std::optional(std::max(*high, *s.lowest)) : std::nullopt;
   }
   if (!others) return text;
-  return text +
-         fmt::format(
-             ". The other methods allow {} to {}, because the payload slows down while the canopy fills "
-             "over {:.3g} D0. The distance depends on the deployment, and over a shorter one the load is "
-             "higher. Use these speeds only if a measured opening or a coupled inflation (--opening) of this "
-             "deployment confirms that distance",
-             printed(low), printed(high), filling_distance);
+  return text + fmt::format(
+                    ". The other methods allow {} to {}. They assume that the canopy fills over {:.3g} D0. "
+                    "The distance depends "
+                    "on the deployment, and over a shorter one the load is higher. Use a speed above {} only "
+                    "if a measured "
+                    "opening or a coupled inflation (--opening) of this deployment confirms that distance",
+                    printed(low), printed(high), filling_distance, printed(design.lowest));
 }
 
 }  // namespace
@@ -229,7 +230,7 @@ FastestResult run_fastest(const Settings& resolved, const LoadRequest& request, 
     r.methods.push_back(safe_speed(resolved, loads, m.method, slowest, least_load, r));
   r.snatch = loads.snatch(r.design().unsafe_at ? slowest : r.design().lowest.value_or(fastest_deployment));
   if (r.snatch && r.snatch->other_load) r.warnings.push_back(two_snatch_loads(*r.snatch));
-  r.advice = advice_of(r, fast.filling_constant);
+  r.advice = advice_of(r, fast.filling_constant, !fast.design_load_caution.empty());
   if (!fast.design_load_caution.empty()) r.warnings.push_back(fast.design_load_caution);
   for (std::string& text : strain_warnings(resolved, 0)) r.warnings.push_back(std::move(text));
   for (std::string& text : hardware_warnings(resolved)) r.warnings.push_back(std::move(text));

@@ -11,7 +11,7 @@
 namespace ripstop::inline run {
 
 /// Three standard deviations of the peaks of openings that differ only in mesh or folds: 5 % each for a disk-gap-band
-/// (docs/theory/inflation.md, Step and cells), 2 to 6 % for solid canopies.
+/// (docs/validation/inflation.md, Step and cells), less for a flat circular canopy.
 inline constexpr double opening_scatter = 0.15;
 
 /// Whether a uniform-pressure inflation has the default damping, which was calibrated on one peak (docs/validation.md,

@@ -297,20 +297,40 @@ constexpr double computed_over_handbook = 2.5, heavy_payload = 1;
 
 std::string heavy_payload_caution(const Settings& resolved, const LoadResult& r) {
   const bool solid = known_filling(resolved.parachute().canopy.family().type).ludtke_exponent > 2;
-  const double ratio = r.stages.back().mass_ratio;
-  if (!solid || ratio >= heavy_payload) return {};
-  return fmt::format(
-      "the payload is heavy for this canopy (mass ratio {:.2g}): at mass ratios below {:g}, coupled openings "
-      "of solid "
-      "canopies that fill within two nominal diameters have up to {:g} times the infinite-mass load of the "
-      "handbook "
-      "(docs/validation/inflation.md). Compute the opening (ripstop inflate CASE --air coupled --set "
-      "inflation.mass=payload) and give it with --opening, or measure the load",
-      ratio, heavy_payload, computed_over_handbook);
+  if (!solid) return {};
+  for (const StageLoads& stage : r.stages) {
+    const double computed = computed_over_handbook * stage.methods.front().load;
+    if (stage.mass_ratio >= heavy_payload || computed <= r.highest_design_load) continue;
+    return fmt::format(
+        "the payload is heavy for {} (mass ratio of air and payload {:.3g}): at mass ratios below {:g}, "
+        "coupled "
+        "openings of solid canopies that fill within two nominal diameters have up to {:g} times the "
+        "infinite-mass "
+        "load of the handbook (docs/validation/inflation.md). Compute the opening at the airspeed V at line "
+        "stretch: "
+        "ripstop inflate CASE --air coupled --set inflation.mass=payload --speed V --out RUN. Then use it: "
+        "ripstop "
+        "load CASE --speed V --opening RUN. A measured load (--measured-load) also replaces the handbook",
+        r.stages.size() > 1 ? fmt::format("the stage from {:.2f} s", stage.begin) : "this canopy",
+        stage.mass_ratio, heavy_payload, computed_over_handbook);
+  }
+  return {};
 }
 
 std::string scatter_text() {
   return fmt::format("scatter of repeated openings {:.0f} %", 100 * opening_scatter);
+}
+
+void warn_of_small_measurement(LoadResult& r) {
+  const StageLoads* least = nullptr;
+  for (const StageLoads& stage : r.stages)
+    if (!least || stage.lowest > least->lowest) least = &stage;
+  if (r.design_load >= least->lowest) return;
+  const auto [measured, estimate] = rounded_apart(r.design_load, least->lowest, 4);
+  r.warnings.push_back(fmt::format(
+      "the measured load of {} N is below every applicable estimate (at least {} N): check unit, speed and "
+      "mass of the measurement",
+      measured, estimate));
 }
 
 /// The infinite-mass load of the stage with the highest, or that of a method that applies and has more (a payload that is
@@ -337,13 +357,14 @@ void choose_design_load(const Settings& resolved, const LoadRequest& request, co
     r.design_method = computed_method;
   }
   r.line_load_factor = experience(resolved.parachute()).line_load_factor;
-  if (!r.design_method.empty() && r.design_method != computed_method && !request.opening_coefficient)
-    r.design_load_caution = heavy_payload_caution(resolved, r);
-  if (!r.design_load_caution.empty()) r.warnings.push_back(r.design_load_caution);
   LoadUncertainty uncertainty =
       request.measured_load ? LoadUncertainty{opening_scatter, scatter_text()} : load_uncertainty(drag);
   r.load_uncertainty = uncertainty.value, r.load_uncertainty_from = std::move(uncertainty.from);
   r.highest_design_load = (1 + r.load_uncertainty) * r.design_load;
+  if (!r.design_method.empty() && r.design_method != computed_method && !request.opening_coefficient)
+    r.design_load_caution = heavy_payload_caution(resolved, r);
+  if (!r.design_load_caution.empty()) r.warnings.push_back(r.design_load_caution);
+  if (request.measured_load) warn_of_small_measurement(r);
   const double mach = request.speed / standard_air(r.height).sound_speed;
   for (const std::string& text : outside_range(infinite_mass_model, {{"Mach number", mach}}))
     r.warnings.push_back(text);
