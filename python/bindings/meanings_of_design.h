@@ -170,6 +170,8 @@ Size.load_uncertainty: relative uncertainty of the design load
 Load.load_uncertainty: relative uncertainty of the design load
 Load.highest_design_load_n: design load plus its uncertainty
 Size.highest_design_load_n: design load plus its uncertainty
+Load.smallest_margin_of_safety: margin of safety of the weakest member under the highest design load, or a larger snatch load
+Load.smallest_margin_member: weakest member under the highest design load, or a larger snatch load
 Size.smallest_margin_of_safety: margin of safety of the weakest member under the highest design load
 Size.smallest_margin_member: weakest member under the highest design load
 Size.opening_load_n: largest opening load of the applicable methods
