@@ -172,7 +172,7 @@ TEST(Options, ADefaultInTheHelpIsTheValueThatIsUsed) {
 
 TEST(Options, AMistakeIsReportedWithTheMeaningOfTheOptionAndAnExample) {
   const std::map<std::string, std::vector<std::string>> mistakes = {
-      {"--descent-rate (Required descent rate [m/s]; above 0 and at most 100) is missing",
+      {"--descent-rate (Required rate of descent [m/s]; above 0 and at most 100) is missing",
        {"size", "--mass", "2"}},
       {"needs a value", {"size", "--descent-rate"}},
       {"--mass is given more than once", {"size", "--mass", "2", "--mass", "3", "--descent-rate", "5"}},

@@ -66,7 +66,7 @@ TEST(RecoveryCommand, StatesTheReplacedMassTheLoosePackingAndTheSeparation) {
                            "litres if packed loosely at 250 kg/m3", "F = sqrt(2 E k / L)"})
     EXPECT_NE(run.output.find(text), std::string::npos) << text << "\n" << run.output;
   EXPECT_EQ(run.output.find("drift"), std::string::npos) << run.output;  // no wind is given
-  EXPECT_TRUE(std::regex_search(run.output, std::regex("length in the bay +[0-9.]+ m at that density, ")))
+  EXPECT_TRUE(std::regex_search(run.output, std::regex("length in the bay +[0-9.]+ m at this density, ")))
       << run.output;
 }
 
