@@ -87,8 +87,8 @@ void print_start(const Opening& solver, const InflationState& state, const LoadS
         "to keep the time step\n",
         100 * limit.reduced_cells, limit.least_share);
   print_text(
-      "nodes {}, time step {:.3e} s (stability limit {:.3e} s), {} thread{}; the time steps {} about {} on "
-      "one thread, without the writing of {} shapes\n",
+      "nodes {}, time step {:.3e} s (stability limit {:.3e} s), {} thread{}; the time steps {} about {} of "
+      "processor time, without the writing of {} shapes\n",
       solver.mesh().node_count(), state.step, state.step / solver.problem().settings.step_fraction,
       solver.threads(), solver.threads() == 1 ? "" : "s",
       solver.air() ? "of cloth and air take" : "of the cloth take",

@@ -45,15 +45,19 @@ std::string air_text(double height, double density, const std::string& from) {
 }
 
 /// The caution is printed where it differs from that of the stage before.
-void print_stage(const StageLoads& s, const LoadResult& r, const std::string& known_caution) {
+void print_stage(const StageLoads& s, const StageLoads* before, const LoadResult& r,
+                 const std::string& known_caution) {
   const double share = s.filling_time * s.speed / (s.filling_constant * r.nominal_diameter);
   print_text(
       "\nstage from {:.2f} s: {:.3g} m/s on a path {:.3g} deg below the horizon, {:.4g} m above sea level, "
       "{:.4g} "
-      "kg/m3, drag area {:.3g} to {:.3g} m2\n"
+      "kg/m3, drag area {:.3g} to {:.3g} m2{}\n"
       "  filling time {:.3g} s = {:.3g} D0 / speed{}{}, ballistic parameter {:.3g}, mass ratio {:.3g}\n",
-      s.begin, s.speed, s.path_angle, s.height, s.density, s.drag_area_before, s.drag_area, s.filling_time,
-      s.filling_constant,
+      s.begin, s.speed, s.path_angle, s.height, s.density, s.drag_area_before, s.drag_area,
+      before && s.drag_area_before > 1.0005 * before->drag_area
+          ? " (the canopy of the stage before is still larger than in steady flow)"
+          : "",
+      s.filling_time, s.filling_constant,
       s.filling_constant < 0.9995 * r.filling_constant
           ? fmt::format(" ({:.3g} D0 above 46 m/s, less below it)", r.filling_constant)
           : "",
@@ -113,8 +117,10 @@ void print_snatch(const SnatchResult& s) {
          {cell(c.half_length), cell(c.double_length), cell(c.half_stiffness), cell(c.double_stiffness)});
 }
 
-void print_fastest(const FastestResult& r, const fs::path& folder) {
+void print_fastest(const FastestResult& r, const fs::path& folder, const std::optional<double>& mass,
+                   const Settings& resolved) {
   print_text("{}\n  payload {:.4g} kg, parachute {:.3g} kg\n", r.title, r.payload_mass, r.parachute_mass);
+  print_replaced_mass(mass, resolved);
   print_text("  at line stretch: path {:.3g} deg below the horizon, {}\n", r.path_angle,
              air_text(r.height, r.density, r.air_source));
   print_text("  FASTEST SAFE DEPLOYMENT {}\n", safe_speed_text(r.design()));
@@ -134,9 +140,11 @@ void print_fastest(const FastestResult& r, const fs::path& folder) {
   print_text("{} (result.json)\n", folder.string());
 }
 
-void print_result(const LoadResult& r, const fs::path& folder) {
+void print_result(const LoadResult& r, const fs::path& folder, const std::optional<double>& mass,
+                  const Settings& resolved) {
   print_text("{}\n  payload {:.4g} kg, parachute {:.3g} kg, S0 {:.4g} m2\n", r.title, r.payload_mass,
              r.parachute_mass, r.reference_area);
+  print_replaced_mass(mass, resolved);
   print_text("  at line stretch: {:.4g} m/s, path {:.3g} deg below the horizon, {}\n", r.speed, r.path_angle,
              air_text(r.height, r.density, r.air_source));
   print_text(
@@ -178,9 +186,10 @@ void print_result(const LoadResult& r, const fs::path& folder) {
     print_margins(r.margins, r.highest_design_load / r.design_load);
   print_row("required hardware", hardware_text(r.hardware));
   std::string caution;
+  const StageLoads* before = nullptr;
   for (const StageLoads& stage : r.stages) {
-    print_stage(stage, r, caution);
-    caution = stage.caution;
+    print_stage(stage, before, r, caution);
+    caution = stage.caution, before = &stage;
   }
   print_text("\npeak load of the trajectory {:.1f} N after {:.3f} s\n", r.peak_load, r.peak_time);
   if (r.snatch) print_snatch(*r.snatch);
@@ -206,10 +215,7 @@ int load(LoadArguments& options) {
   if (options.fastest) {
     const FastestResult fastest = run_fastest(resolved, request, options.margin);
     write_fastest(options.out, fastest);
-    return show(fastest, options.json, [&] {
-      print_fastest(fastest, options.out);
-      print_replaced_mass(options.mass, resolved);
-    });
+    return show(fastest, options.json, [&] { print_fastest(fastest, options.out, options.mass, resolved); });
   }
   if (!options.speed)
     throw Error(ExitCode::usage,
@@ -217,10 +223,7 @@ int load(LoadArguments& options) {
   request.speed = *options.speed;
   const LoadResult result = run_load(resolved, request);
   write_load(options.out, result);
-  return show(result, options.json, [&] {
-    print_result(result, options.out);
-    print_replaced_mass(options.mass, resolved);
-  });
+  return show(result, options.json, [&] { print_result(result, options.out, options.mass, resolved); });
 }
 
 void add_coefficients(CLI::App& command, LoadRequest& r) {

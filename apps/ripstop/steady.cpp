@@ -243,6 +243,8 @@ void add_steady(CLI::App& app, int& status) {
   command->add_option("case", options->case_file, "Case file (TOML)")->required();
   add_case_options(*command, options->overrides);
   add_flow_options(*command, options->overrides);
+  add_key_option(*command, "--cloth-nodes", "parachute.mesh.cloth_nodes", "Target number of cloth nodes",
+                 options->overrides);
   command->add_flag_callback(
       "--unsteady",
       [options] {

@@ -31,8 +31,10 @@ CheckResult run_check(const Settings& resolved) {
   for (const std::string& text : case_warnings(resolved)) warnings.push_back(text);
   const UsualOpening opening = usual_opening(resolved.written());
   for (const std::string& text : margin_warnings(load_margins(resolved, opening.load)))
-    warnings.push_back(fmt::format("in an opening at {} m/s ({}), with the infinite-mass load of {} N: {}",
-                                   rounded(opening.speed, 3), opening.from, rounded(opening.load), text));
+    warnings.push_back(
+        fmt::format("in an opening at {} m/s ({}), with the infinite-mass load of {} N without its "
+                    "uncertainty: {}; for another speed use ripstop load --speed",
+                    rounded(opening.speed, 3), opening.from, rounded(opening.load), text));
   return {summarize(resolved), resolved.sources(), std::move(warnings), resolved};
 }
 

@@ -348,7 +348,7 @@ void take_coefficient(const SizeRequest& request, const FamilyDrag& drag, SizeRe
     of_flight(lower, ", less two standard errors; it is below the axial one");
   } else {
     r.drag_basis = "axial", r.drag_coefficient = drag.drag_coefficient;
-    r.drag_source = fmt::format("axial, computed at {:g} m/s: {}", drag.speed, drag.made);
+    r.drag_source = fmt::format("axial, computed at {:g} m/s ({})", drag.speed, drag.made);
   }
   require_positive("drag coefficient", r.drag_coefficient);
 }
