@@ -82,7 +82,7 @@ void add_flow_options(CLI::App& command, Overrides& overrides) {
   std::vector<std::string> words;
   for (const EngineRecord& engine : engines()) words.push_back(engine.word);
   add_three(command, "--grid", overrides.grid, key_range("flow.cells"),
-            "Cells NX,NY,NZ of the flow domain (case key flow.cells)");
+            "Cells NX,NY,NZ of the flow domain, for example 40,40,50 (case key flow.cells)");
   CLI::Option* flow = command.add_option_function<std::string>(
       "--flow", [&overrides](const std::string& engine) { overrides.engine = engine; },
       "Flow engine (case key flow.engine)");

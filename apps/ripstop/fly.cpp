@@ -204,8 +204,7 @@ void add_fly(CLI::App& app, int& status) {
                  options->overrides);
   add_key_option(*command, "--height", "flight.height_m",
                  "Height of the payload above the ground at the start [m] (in other commands: above sea "
-                 "level); the flight ends at the "
-                 "ground",
+                 "level); the flight ends at the ground",
                  options->overrides);
   add_key_option(*command, "--wind", "flight.wind.speed_m_s", "Speed of the wind [m/s]", options->overrides);
   add_key_option(

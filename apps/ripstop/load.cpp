@@ -170,8 +170,8 @@ void print_result(const LoadResult& r, const fs::path& folder, const std::option
   if (r.stages.size() > 1)
     print_text(
         "  The speed of a later stage is that of the trajectory: the design load requires that the reefed "
-        "stages "
-        "decelerate the payload as computed. Without reefing the infinite-mass load at line stretch is "
+        "stages decelerate the payload as computed. Without reefing the infinite-mass load at line stretch "
+        "is "
         "{:.1f} N.\n",
         r.opening_coefficient * r.design_drag_coefficient * r.reference_area * 0.5 * r.density * r.speed *
             r.speed);

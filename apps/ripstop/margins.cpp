@@ -29,19 +29,19 @@ void print_payload(const SteadyResult& r) {
                                    r.payload->speeds));
 }
 
-void print_margins(const std::optional<Margins>& margins, std::optional<double> largest,
+void print_margins(const std::optional<Margins>& margins, std::optional<double> highest,
                    const std::string& under) {
   if (!margins) return;
-  const auto under_largest = [&](const Margin& m) {
-    return largest ? fmt::format(" ({:.1f} %)", 100 * *largest * *m.used) : "";
+  const auto under_highest = [&](const Margin& m) {
+    return highest ? fmt::format(" ({:.1f} %)", 100 * *highest * *m.used) : "";
   };
   std::string text;
   for (const Margin& m : weakest_of_kinds(*margins))
     text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", m.member,
-                        m.used       ? fmt::format("{:.1f} %", 100 * *m.used) + under_largest(m)
+                        m.used       ? fmt::format("{:.1f} %", 100 * *m.used) + under_highest(m)
                         : m.strength ? std::string("no load")
                                      : std::string("strength not known"));
-  print_row("utilisation", text + (largest         ? "; under the design load (under the highest design load)"
+  print_row("utilisation", text + (highest         ? "; under the design load (under the highest design load)"
                                    : under.empty() ? ""
                                                    : "; under " + under));
   if (!margins->weakest.empty()) {
@@ -51,7 +51,7 @@ void print_margins(const std::optional<Margins>& margins, std::optional<double> 
     print_row("weakest member",
               fmt::format("{}{}: {} {} {} times safety factor {:.3g}, allowable load {} {} ({:.0f} % of the "
                           "{}); margin of safety {}{}{}",
-                          largest ? "under the design load, " : "", m.member, m.load_from.value_or("load"),
+                          highest ? "under the design load, " : "", m.member, m.load_from.value_or("load"),
                           rounded(m.load), m.unit, *m.used * *m.strength * m.knock_down / m.load,
                           rounded(*m.strength * m.knock_down), m.unit, 100 * m.knock_down, m.strength_from,
                           margin_text(*m.margin), *m.margin < 0 ? ": ALLOWABLE LOAD EXCEEDED" : "",
@@ -78,8 +78,7 @@ void print_separation() {
       "Not included: the load when sections of the rocket separate. A shock cord with the stiffness k "
       "(stiffness_n) and the length L (length_m) carries F = sqrt(2 E k / L). For sections of masses "
       "m1 and m2 that separate at the speed v, E = m1 m2 v^2 / (2 (m1 + m2)). If F exceeds the rated load in "
-      "the row "
-      "'required hardware', design the hardware for F.\n");
+      "the row 'required hardware', design the hardware for F.\n");
 }
 
 std::string packed_text(double mass, double volume) {

@@ -14,9 +14,9 @@ namespace ripstop::cli {
 /// `max_line_tension` in N.
 void print_stresses(double max_line_tension, const StressPeak& stress);
 void print_payload(const SteadyResult& result);
-/// With `largest`, the ratio of the highest design load to the load of the margins, the utilisation under both.
+/// With `highest`, the ratio of the highest design load to the load of the margins, the utilisation under both.
 /// Otherwise `under` names the load ("the snatch load"); empty: a row above does.
-void print_margins(const std::optional<Margins>& margins, std::optional<double> largest = {},
+void print_margins(const std::optional<Margins>& margins, std::optional<double> highest = {},
                    const std::string& under = "");
 /// A line where --mass replaces another payload.mass_kg of the case.
 void print_replaced_mass(const std::optional<double>& given, const Settings& resolved);

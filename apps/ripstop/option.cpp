@@ -99,9 +99,6 @@ std::string wrong_number_of_values(const CLI::Option& option, const std::string&
   if (text.find("At Most") != std::string::npos)
     return fmt::format("{} is given more than once", option.get_name());
   const int needed = option.get_expected_min() * option.get_type_size_min();
-  if (needed == 3)
-    return fmt::format("{0} needs 3 values, for example {1} 40,40,50", with_meaning(option),
-                       option.get_name());
   return fmt::format("{} needs {}", with_meaning(option),
                      needed > 1 ? fmt::format("{} values", needed) : std::string("a value"));
 }

@@ -57,7 +57,7 @@ void print_stage(const RecoveryStage& s, bool wind) {
                   rounded(s.lowest_load), rounded(s.highest_load), s.filling_time));
   print_row(
       "design load",
-      fmt::format("{}: {}", range_text({s.design_load, s.least_design_load, s.largest_design_load}, "N"),
+      fmt::format("{}: {}", range_text({s.design_load, s.lowest_design_load, s.highest_design_load}, "N"),
                   s.design_load_from));
   print_row("uncertainty of the load",
             fmt::format("{:.0f} % at one speed: {}", 100 * s.load_uncertainty, s.load_uncertainty_from));
@@ -68,9 +68,9 @@ void print_stage(const RecoveryStage& s, bool wind) {
     print_row("separation load",
               fmt::format("{} N on the shock cord when two sections separate", rounded(*s.separation_load)));
   print_row("margins and hardware",
-            fmt::format("under {} N, the highest design load{}", rounded(s.largest_design_load),
+            fmt::format("under {} N, the highest design load{}", rounded(s.highest_design_load),
                         s.separation_load == s.hardware.rated ? "; of hardware under the separation load"
-                        : s.hardware.rated > s.largest_design_load
+                        : s.hardware.rated > s.highest_design_load
                             ? "; of lines, riser and hardware under the snatch load"
                             : ""));
   print_margins(s.margins);

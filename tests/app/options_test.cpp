@@ -183,7 +183,8 @@ TEST(Options, AMistakeIsReportedWithTheMeaningOfTheOptionAndAnExample) {
       {"--speed and --fastest exclude each other: give one of them",
        {"load", stratos, "--speed", "3", "--fastest"}},
       {"--margin needs --fastest: give both", {"load", stratos, "--speed", "3", "--margin", "1"}},
-      {"needs 3 values, for example --grid 40,40,50", {"steady", stratos, "--grid", "24,24"}}};
+      {"for example 40,40,50 (case key flow.cells); at least 4 and at most 2000) needs 3 values",
+       {"steady", stratos, "--grid", "24,24"}}};
   for (const auto& [message, arguments] : mistakes) {
     const Finished run = ripstop_with(arguments);
     EXPECT_EQ(run.code, 2) << run.output;

@@ -135,8 +135,7 @@ void describe(Fields& fields, Design& design, const Families& types) {
               "Reference area S0 of the coefficients.")
       .absent(
           "definition of the canopy family: cut cloth (disk-gap-band), else the whole design surface with "
-          "vent "
-          "and slots");
+          "vent and slots");
   fields
       .integer("gores", design.gores, from(3).up_to(500),
                "Number of gores of equal width; for a cross 4, the number of its arms.")

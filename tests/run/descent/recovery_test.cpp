@@ -136,9 +136,9 @@ TEST(Recovery, RangesCombineTheEndsOfBothParachutes) {
   const double faster = second.speed.high / second.speed.value, range = second.descent_drag.high / 0.80 - 1;
   ASSERT_GT(range, 0.1);
   EXPECT_NEAR(second.load_uncertainty, std::hypot(range, 0.15), 1e-9);
-  EXPECT_NEAR(second.largest_design_load / second.design_load,
+  EXPECT_NEAR(second.highest_design_load / second.design_load,
               (1 + second.load_uncertainty) * faster * faster, 1e-6);
-  EXPECT_LT(second.least_design_load, second.design_load);
+  EXPECT_LT(second.lowest_design_load, second.design_load);
   EXPECT_LT(r.time.low, r.time.value);
 }
 
@@ -147,14 +147,14 @@ TEST(Recovery, EveryRequiredStrengthIsForTheUpperEndOfTheDesignLoad) {
   const Settings main = canopy(3.5, {{"hardware.swivel.rated_load_n", "5000"}});
   const RecoveryResult r = run_recovery(main, canopy(0.7), request());
   for (const RecoveryStage& s : r.stages) {
-    EXPECT_GE(s.largest_design_load, s.design_load);
-    EXPECT_EQ(s.hardware.rated, s.largest_design_load);
+    EXPECT_GE(s.highest_design_load, s.design_load);
+    EXPECT_EQ(s.hardware.rated, s.highest_design_load);
     EXPECT_GT(s.hardware.metal, s.hardware.rated);
     EXPECT_GT(s.hardware.textile, s.hardware.metal);
   }
   const RecoveryStage& last = r.stages[1];
-  EXPECT_GT(last.largest_design_load, 1.05 * last.design_load);
-  const Margins expected = load_margins(main, last.largest_design_load);
+  EXPECT_GT(last.highest_design_load, 1.05 * last.design_load);
+  const Margins expected = load_margins(main, last.highest_design_load);
   ASSERT_EQ(last.margins->members.size(), expected.members.size());
   for (std::size_t i = 0; i < expected.members.size(); ++i)
     EXPECT_EQ(last.margins->members[i].load, expected.members[i].load) << expected.members[i].member;
@@ -168,7 +168,7 @@ TEST(Recovery, APartExceedsItsAllowableLoadIfAndOnlyIfItOpensAboveTheSafeSpeed) 
   for (const std::size_t stage : {0U, 1U})
     for (const double share : {0.7, 0.99, 1.01, 1.4}) {
       const std::vector<Setting> link = {
-          {"hardware.link.rated_load_n", fmt::format("{}", share * free.stages[stage].largest_design_load)}};
+          {"hardware.link.rated_load_n", fmt::format("{}", share * free.stages[stage].highest_design_load)}};
       std::vector<Setting> main = axial;
       if (stage == 1) main.push_back(link[0]);
       const RecoveryStage s =
@@ -188,7 +188,7 @@ TEST(Recovery, ASnatchLoadAboveTheDesignLoadDeterminesTheHardware) {
   const Settings main = canopy(3.5, {{"deployment.ejection_impulse_n_s", "300"}});
   const RecoveryStage s = run_recovery(main, canopy(0.7), request()).stages[1];
   ASSERT_TRUE(s.snatch_load);
-  ASSERT_GT(*s.snatch_load, s.largest_design_load);
+  ASSERT_GT(*s.snatch_load, s.highest_design_load);
   EXPECT_EQ(s.hardware.rated, *s.snatch_load);
   EXPECT_FALSE(run_recovery(canopy(3.5), {}, request()).stages[0].snatch_load);
 }
@@ -310,8 +310,8 @@ TEST(Recovery, WarnsOfADrogueLargerThanTheMain) {
   EXPECT_TRUE(warns_of(r, "exchange the two parachutes"));
   EXPECT_FALSE(warns_of(run_recovery(canopy(3.5), canopy(0.7), request()), "exchange"));
   for (const RecoveryStage& s : r.stages) {
-    EXPECT_LE(s.least_design_load, s.design_load) << s.name;
-    EXPECT_GE(s.largest_design_load, s.design_load) << s.name;
+    EXPECT_LE(s.lowest_design_load, s.design_load) << s.name;
+    EXPECT_GE(s.highest_design_load, s.design_load) << s.name;
   }
 }
 

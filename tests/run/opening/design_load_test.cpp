@@ -213,6 +213,28 @@ TEST(DesignLoad, WithAHeavyPayloadOfASolidCanopyIsWarnedOf) {
   EXPECT_TRUE(mentions(run_fastest(solid, heavy, 0).warnings, "the payload is heavy for this canopy"));
 }
 
+TEST(DesignLoad, AMeasuredLoadBelowEveryEstimateIsWarnedOf) {
+  const Settings canopy = resolve(sized_canopy(1.76));
+  LoadRequest asked = drop();
+  const double lowest = run_load(canopy, asked).stages.front().lowest;
+  const auto warned = [&](double measured) {
+    asked.measured_load = measured;
+    return mentions(run_load(canopy, asked).warnings, "is below every applicable estimate");
+  };
+  EXPECT_TRUE(warned(0.9 * lowest));
+  EXPECT_FALSE(warned(1.1 * lowest));
+}
+
+// The mass ratio of a reefed stage is that of its own drag area.
+TEST(DesignLoad, AReefedStageWithAHeavyPayloadIsNamedInTheCaution) {
+  LoadRequest asked = drop(20, 27);
+  asked.reefing = {{0.2, 1}};
+  const LoadResult r = run_load(resolve(sized_canopy(4.43)), asked);
+  ASSERT_GT(r.stages.back().mass_ratio, 1);
+  EXPECT_EQ(r.design_load_caution.find("the payload is heavy for the stage from 0.00 s"), 0u)
+      << r.design_load_caution;
+}
+
 TEST(DesignLoad, AComputedOpeningAboveTheInfiniteMassLoadIsWarnedOf) {
   EXPECT_FALSE(above_infinite_mass(1149, 1000));  // within the scatter of openings
   const auto above = above_infinite_mass(1820, 1000);

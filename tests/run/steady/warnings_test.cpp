@@ -184,14 +184,14 @@ TEST(Warnings, AStrengthAboveThatOfAnyFibreIsWarnedOfByCheckLoadFastestAndRecove
   EXPECT_EQ(warned(warnings_of(strong, 0)), 1);
   EXPECT_EQ(warned(warnings_of(strong, 0, true)), 1);
   LoadRequest load;
-  load.payload_mass = 2.4, load.speed = 20;
+  load.payload_mass = 0.4, load.speed = 20;  // a heavier one has a caution on its opening
   EXPECT_EQ(warned(run_load(strong, load).warnings), 1);
   EXPECT_EQ(warned(run_fastest(strong, load).warnings), 1);
   RecoveryRequest recovery;
   recovery.mass = 2.4, recovery.apogee = 300;
   EXPECT_EQ(warned(run_recovery(strong, {}, recovery).warnings), 1);
   EXPECT_TRUE(case_warnings(usual).empty());
-  EXPECT_EQ(warned(run_load(usual, load).warnings), 0);
+  EXPECT_TRUE(run_load(usual, load).warnings.empty());
 }
 
 }  // namespace

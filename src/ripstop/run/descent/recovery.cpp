@@ -292,9 +292,9 @@ RecoveryStage stage_of(const RecoveryCanopy& canopy, std::size_t i, const std::v
   const EndOpening low = opening_at(DragEnd::low, canopy, i, flights, request),
                    high = opening_at(DragEnd::high, canopy, i, flights, request);
   // A canopy that opens slower than it descends accelerates while it fills: its load can be largest at the lowest speed.
-  s.least_design_load = std::min({s.design_load, (1 - low.uncertainty.value) * low.design_load(),
-                                  (1 - high.uncertainty.value) * high.design_load()});
-  s.largest_design_load = std::max({s.design_load, (1 + low.uncertainty.value) * low.design_load(),
+  s.lowest_design_load = std::min({s.design_load, (1 - low.uncertainty.value) * low.design_load(),
+                                   (1 - high.uncertainty.value) * high.design_load()});
+  s.highest_design_load = std::max({s.design_load, (1 + low.uncertainty.value) * low.design_load(),
                                     (1 + high.uncertainty.value) * high.design_load()});
   s.load_uncertainty = high.uncertainty.value, s.load_uncertainty_from = high.uncertainty.from;
   const auto snatch = snatch_of(canopy.resolved, high.asked, high.load);
@@ -302,9 +302,9 @@ RecoveryStage stage_of(const RecoveryCanopy& canopy, std::size_t i, const std::v
   if (request.separation_speed)
     s.separation_load = separation_load(canopy.resolved, request.sections, *request.separation_speed);
   const double largest_snatch = s.snatch_load.value_or(0);
-  s.margins = load_margins(canopy.resolved, s.largest_design_load, largest_snatch);
+  s.margins = load_margins(canopy.resolved, s.highest_design_load, largest_snatch);
   if (s.separation_load) add_separation(canopy.resolved, *s.separation_load, *s.margins);
-  s.hardware = hardware_need(std::max({s.largest_design_load, largest_snatch, s.separation_load.value_or(0)}),
+  s.hardware = hardware_need(std::max({s.highest_design_load, largest_snatch, s.separation_load.value_or(0)}),
                              canopy.resolved.margins());
   s.safe = run_fastest(canopy.resolved, high.asked, 0, high.uncertainty, high.least_load).design();
   s.descent_rate = ranged(flights, [&](const Flown& f) { return f.stages[i].end_speed; });
@@ -431,7 +431,7 @@ void add_ranges(ReportRun& run, const RecoveryResult& r) {
   };
   for (const RecoveryStage& s : r.stages) {
     add(s.name, "drag coefficient on S0", {s.drag_coefficient, s.descent_drag.low, s.descent_drag.high}, "");
-    add(s.name, "design load", {s.design_load, s.least_design_load, s.largest_design_load}, "N");
+    add(s.name, "design load", {s.design_load, s.lowest_design_load, s.highest_design_load}, "N");
     add(s.name, "airspeed at the opening", s.speed, "m/s");
     add(s.name, "rate of descent at the end", s.descent_rate, "m/s");
     add(s.name, "duration", s.duration, "s");

@@ -55,10 +55,10 @@ struct RecoveryStage {
   double density = 0;       // there, of the standard atmosphere [kg/m3]
   Ranged speed;             // through the air at the opening [m/s]
   double filling_time = 0;  // [s]
-  double lowest_load = 0, highest_load = 0;               // of the methods that apply [N]
-  double design_load = 0;                                 // [N]
-  double least_design_load = 0, largest_design_load = 0;  // with the ranges of drag, speed and scatter [N]
-  double load_uncertainty = 0;                            // of its upper end at one speed, relative
+  double lowest_load = 0, highest_load = 0;                // of the methods that apply [N]
+  double design_load = 0;                                  // [N]
+  double lowest_design_load = 0, highest_design_load = 0;  // with the ranges of drag, speed and scatter [N]
+  double load_uncertainty = 0;                             // of its upper end at one speed, relative
   std::string load_uncertainty_from;
   std::string design_load_from;
   std::optional<double> snatch_load;      // by [deployment] of the case, at the highest speed [N]
@@ -93,8 +93,8 @@ void each_member(T& s, Visit&& visit) {
   visit("lowest_load_n", s.lowest_load);
   visit("highest_load_n", s.highest_load);
   visit("design_load_n", s.design_load);
-  visit("lowest_design_load_n", s.least_design_load);
-  visit("highest_design_load_n", s.largest_design_load);
+  visit("lowest_design_load_n", s.lowest_design_load);
+  visit("highest_design_load_n", s.highest_design_load);
   visit("load_uncertainty", s.load_uncertainty);
   visit("load_uncertainty_from", s.load_uncertainty_from);
   visit("design_load_from", s.design_load_from);

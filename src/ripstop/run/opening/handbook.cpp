@@ -67,11 +67,11 @@ std::optional<std::string> handbook_disagreement(double computed, std::optional<
 std::optional<std::string> above_infinite_mass(double computed, double infinite_mass) {
   if (computed <= (1 + opening_scatter) * infinite_mass) return {};
   return fmt::format(
-      "the computed opening load of {} N is {:.2g} times the infinite-mass load of {} N, the design load of "
+      "the computed opening load of {} N is {:.2g} times the infinite-mass load of {} N (the design load of "
       "ripstop "
-      "load: its C_x is a mean of measured openings with cloth of other permeability; design for at least {} "
-      "N "
-      "at this speed and mass, unless the load of your parachute is measured",
+      "load). The C_x of the handbook is a mean of measured openings with cloth of other permeability. "
+      "Design for at "
+      "least {} N at this speed and mass, unless the load of your parachute is measured",
       rounded(computed), computed / infinite_mass, rounded(infinite_mass), rounded(computed));
 }
 

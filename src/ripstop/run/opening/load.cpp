@@ -302,15 +302,16 @@ std::string heavy_payload_caution(const Settings& resolved, const LoadResult& r)
     const double computed = computed_over_handbook * stage.methods.front().load;
     if (stage.mass_ratio >= heavy_payload || computed <= r.highest_design_load) continue;
     return fmt::format(
-        "the payload is heavy for {} (mass ratio of air and payload {:.3g}): at mass ratios below {:g}, "
-        "coupled "
-        "openings of solid canopies that fill within two nominal diameters have up to {:g} times the "
-        "infinite-mass "
-        "load of the handbook (docs/validation/inflation.md). Compute the opening at the airspeed V at line "
-        "stretch: "
-        "ripstop inflate CASE --air coupled --set inflation.mass=payload --speed V --out RUN. Then use it: "
-        "ripstop "
-        "load CASE --speed V --opening RUN. A measured load (--measured-load) also replaces the handbook",
+        "the payload is heavy for {} (mass ratio of air and payload {:.3g}). Coupled openings of solid "
+        "canopies "
+        "at mass ratios below {:g} have up to {:g} times the infinite-mass load of the handbook, because the "
+        "canopy "
+        "fills within two nominal diameters (docs/validation/inflation.md). Compute the opening at the "
+        "airspeed V at "
+        "line stretch: ripstop inflate CASE --air coupled --set inflation.mass=payload --speed V --out RUN. "
+        "Then use "
+        "it: ripstop load CASE --speed V --opening RUN. A measured load (--measured-load) also replaces the "
+        "handbook",
         r.stages.size() > 1 ? fmt::format("the stage from {:.2f} s", stage.begin) : "this canopy",
         stage.mass_ratio, heavy_payload, computed_over_handbook);
   }
@@ -321,16 +322,16 @@ std::string scatter_text() {
   return fmt::format("scatter of repeated openings {:.0f} %", 100 * opening_scatter);
 }
 
+/// Of a measured load that no stage can have by the applicable methods.
 void warn_of_small_measurement(LoadResult& r) {
-  const StageLoads* least = nullptr;
-  for (const StageLoads& stage : r.stages)
-    if (!least || stage.lowest > least->lowest) least = &stage;
-  if (r.design_load >= least->lowest) return;
-  const auto [measured, estimate] = rounded_apart(r.design_load, least->lowest, 4);
-  r.warnings.push_back(fmt::format(
-      "the measured load of {} N is below every applicable estimate (at least {} N): check unit, speed and "
-      "mass of the measurement",
-      measured, estimate));
+  double least = 0;
+  for (const StageLoads& stage : r.stages) least = std::max(least, stage.lowest);
+  if (r.design_load >= least) return;
+  const auto [measured, estimate] = rounded_apart(r.design_load, least, 4);
+  r.warnings.push_back(
+      fmt::format("the measured load of {} N is below every applicable estimate (at least {} N): check unit, "
+                  "speed and mass of the measurement",
+                  measured, estimate));
 }
 
 /// The infinite-mass load of the stage with the highest, or that of a method that applies and has more (a payload that is

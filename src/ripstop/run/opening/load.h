@@ -106,7 +106,7 @@ struct LoadResult {
   double design_drag_coefficient = 0;  // C_D of the infinite-mass load
   std::string drag_source, opening_source, filling_source;
   std::vector<StageLoads> stages;
-  double design_load = 0;           // load for which lines and riser are to be designed [N]
+  double design_load = 0;           // by the rule of docs/theory/opening-load.md, without its uncertainty [N]
   std::string design_load_from;     // measured, computed or infinite mass
   std::string design_load_caution;  // where a computed opening can have more; empty: none
   std::string design_method;        // of a stage, whose load this is; empty: measured
@@ -118,8 +118,8 @@ struct LoadResult {
   std::optional<double> smallest_margin;  // of safety, of the weakest member under the highest design load
   std::string smallest_margin_member;
   double line_load_factor = 1;  // largest line load over an equal share, of the family
-  std::optional<Margins>
-      margins;  // of tape or hem under the design load, of the others also under the snatch load
+  // Of tape or hem under the design load; of the others under this or a larger snatch load.
+  std::optional<Margins> margins;
   double peak_load = 0, peak_time = 0;     // of the trajectory [N], [s]
   std::optional<double> record_peak_load;  // of the trajectory with a computed opening's drag area [N]
   std::string

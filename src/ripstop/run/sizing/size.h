@@ -108,8 +108,7 @@ struct SizeResult {
   std::string design_load_from;
   double load_uncertainty = 0;  // of it, relative
   std::string load_uncertainty_from;
-  double highest_design_load =
-      0;  // with its uncertainty: lines, riser, and tape or hem are chosen for it [N]
+  double highest_design_load = 0;         // lines, riser, and tape or hem are chosen for it [N]
   std::optional<double> smallest_margin;  // of safety, of the weakest member under the highest design load
   std::string smallest_margin_member;
   double line_load_factor = 1;     // largest line load over an equal share
