@@ -54,8 +54,8 @@ def number(pattern, text):
     return int(found[-1]) if found else 0
 
 
-def fuzz(reader, seconds, longest, fast):
-    folder, log = corpus(reader, fast), BUILD / f"{reader}{'-fast' if fast else ''}.log"
+def fuzz(reader, number_of_call, seconds, longest, fast):
+    folder, log = corpus(reader, fast), BUILD / f"{reader}{'-fast' if fast else ''}-{number_of_call}.log"
     begin = time.monotonic()
     with open(log, "w", encoding="utf-8") as out:
         code = subprocess.run([PROGRAMS[fast] / f"fuzz_{reader}", f"-max_total_time={seconds}", *LIMITS, *QUICK, f"-max_len={longest}", "-print_final_stats=1",
@@ -111,7 +111,7 @@ def write_table(runs, still_open):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("readers", nargs="*", choices=[*READERS, []], help="default: all")
+    parser.add_argument("readers", nargs="*", choices=[*READERS, []], help="default: all; a reader that is named twice runs in two processes")
     parser.add_argument("--seconds", type=int, default=60, help="of each reader")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="readers at a time")
     parser.add_argument("--longest", type=int, default=LONGEST, help="most bytes of a new input")
@@ -124,7 +124,7 @@ def main():
     if MADE_SEEDS & set(readers):
         subprocess.run([programs / "fuzz_make_seeds", programs / "seeds"], check=True)
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        for ended in concurrent.futures.as_completed([pool.submit(fuzz, reader, options.seconds, options.longest, options.fast) for reader in readers]):
+        for ended in concurrent.futures.as_completed([pool.submit(fuzz, reader, call, options.seconds, options.longest, options.fast) for call, reader in enumerate(readers)]):
             run = {**ended.result(), "day": f"{datetime.date.today()}", "commit": commit}
             with open(record, "a", encoding="utf-8") as file:
                 file.write(json.dumps(run) + "\n")
