@@ -158,8 +158,10 @@ void print_result(const SteadyResult& r, const Settings& resolved, const fs::pat
   } else {
     row("flow", flow_text(r.last));
   }
-  row("coupling", fmt::format("{} iterations, {}, elapsed {}", r.iterations,
-                              r.converged ? "converged" : "NOT converged", duration_text(r.wall_time)));
+  row("coupling",
+      fmt::format("{} after {} iteration{}; {}", r.converged ? "converged" : "NOT converged", r.iterations,
+                  r.iterations == 1 ? "" : "s", last_changes(r.last, resolved.coupling())));
+  row("elapsed", duration_text(r.wall_time));
   row("files", fmt::format("{} (canopy.png, canopy.pvd, {}, result.json)", folder.string(),
                            flow_grid(resolved.flow()).uniform() ? "flow.vti" : "flow.vtr"));
   if (fs::exists(folder / report_name)) row("report", (folder / report_name).string());

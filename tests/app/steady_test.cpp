@@ -7,8 +7,10 @@
 #include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "program.h"
@@ -52,6 +54,26 @@ void expect_closed_ledger(const json& r) {
   EXPECT_GT(fluid, 0);
   for (const char* other : {"nodal_load_n", "line_tension_n", "momentum_deficit_n"}) {
     EXPECT_NEAR(r.at("ledger").at(other).get<double>() / fluid, 1, 0.01) << other;
+  }
+}
+
+/// The row of the coupling states the changes of the last row of iterations.csv, each with its limit.
+void expect_last_changes(const std::string& output, const fs::path& run) {
+  const std::regex row(
+      "coupling\\s+converged after (\\d+) iterations; last change of the drag (less than )?([0-9.]+) % "
+      "\\(limit 0.1 %\\), of the shape (less than )?([0-9.]+) mm \\(limit 1 mm\\)\n");
+  std::smatch stated;
+  ASSERT_TRUE(std::regex_search(output, stated, row)) << output;
+  const CsvTable iterations = read_csv(run / "iterations.csv");
+  EXPECT_EQ(std::stoul(stated[1]), iterations.rows.size());
+  const double drag = 100 * iterations.column("drag_change").back();
+  const double shape = 1000 * iterations.column("shape_change_m").back();
+  for (const auto& [value, at] : {std::pair(drag, 2), std::pair(shape, 4)}) {
+    const double shown = std::stod(stated[at + 1]);
+    if (stated[at].matched)
+      EXPECT_LT(value, shown) << stated[0];
+    else
+      EXPECT_NEAR(value, shown, 0.05 * shown) << stated[0];
   }
 }
 
@@ -152,6 +174,7 @@ TEST_F(Steady, AFolderOfAnotherRunIsRefusedAndAFinishedOneIsOnlyShown) {
   EXPECT_EQ(again.code, 0);
   EXPECT_NE(again.output.find("  drag computed  "), std::string::npos) << again.output;
   EXPECT_EQ(again.output.find("{\""), std::string::npos) << again.output;
+  expect_last_changes(again.output, run);
   std::vector<std::string> as_json = command("run", "builtin");
   as_json.push_back("--json");
   EXPECT_EQ(wait_for(start(as_json, folder_ / "again.json")), 0);

@@ -20,6 +20,22 @@ constexpr double most_drag_left = 2.5e-3;
 // Times the tolerance on the change of drag: a drag that has settled farther away does not return within it.
 constexpr double far_away = 2;
 
+/// "0.18 % (limit 0.5 %)", "less than 0.005 % (limit 0.5 %)"
+std::string with_limit(double value, double limit, const char* unit) {
+  const double small = 0.01 * limit;
+  if (value < small) return fmt::format("less than {0:g} {2} (limit {1:g} {2})", small, limit, unit);
+  const auto [shown, allowed] = rounded_apart(value, limit, 2);
+  return fmt::format("{} {} (limit {} {})", shown, unit, allowed, unit);
+}
+
+std::string drag_change_text(const SteadyIteration& last, const CouplingSettings& settings) {
+  return with_limit(100 * last.drag_change, 100 * settings.drag_tolerance, "%");
+}
+
+std::string shape_change_text(const SteadyIteration& last, const CouplingSettings& settings) {
+  return with_limit(1000 * last.shape_change, 1000 * settings.shape_tolerance_m, "mm");
+}
+
 }  // namespace
 
 void enter_shape_change(SteadyIteration& now, const std::vector<Vec3>& before,
@@ -35,28 +51,33 @@ void enter_shape_change(SteadyIteration& now, const std::vector<Vec3>& before,
 
 std::vector<std::string> unmet_criteria(const SteadyIteration& last, const CouplingSettings& settings) {
   std::vector<std::string> unmet;
-  const auto add = [&](fmt::format_string<std::string&, std::string&> text, double value, double limit) {
-    auto [shown, allowed] = rounded_apart(value, limit, 2);
-    unmet.push_back(fmt::format(text, shown, allowed));
-  };
   if (!(last.shape_change < settings.shape_tolerance_m))
-    add("the shape changes by {} m (limit {} m)", last.shape_change, settings.shape_tolerance_m);
-  if (!last.in_time && !(last.drag_change < settings.drag_tolerance)) {
-    if (std::isfinite(last.drag_change))
-      add("the drag changes by {} % (limit {} %)", 100 * last.drag_change, 100 * settings.drag_tolerance);
-    else
-      unmet.push_back("the drag is known from one iteration only");
-  }
+    unmet.push_back("the shape changes by " + shape_change_text(last, settings));
+  if (!last.in_time && !(last.drag_change < settings.drag_tolerance))
+    unmet.push_back(std::isfinite(last.drag_change)
+                        ? "the drag changes by " + drag_change_text(last, settings)
+                        : "the drag is known from one iteration only");
   if (!(last.regularisation_share < regularisation_tolerance))
-    add("slack cloth is restrained to the previous shape by {} % of the load (limit {} %)",
-        100 * last.regularisation_share, 100 * regularisation_tolerance);
+    unmet.push_back(
+        fmt::format("slack cloth is restrained to the previous shape by {} of the load",
+                    with_limit(100 * last.regularisation_share, 100 * regularisation_tolerance, "%")));
   if (!ledger_closes(last, ledger_tolerance))
-    add("air load, cloth load and line load differ by {} % (limit {} %)", 100 * ledger_gap(last),
-        100 * ledger_tolerance);
+    unmet.push_back("air load, cloth load and line load differ by " +
+                    with_limit(100 * ledger_gap(last), 100 * ledger_tolerance, "%"));
   if (!last.flow_converged && !(last.flow_averaged > 0 && momentum_closes(last, ledger_tolerance)))
     unmet.emplace_back("the flow has not converged");
   if (unmet.empty()) unmet.emplace_back("the last flow solution was not solved to the full tolerance");
   return unmet;
+}
+
+std::string last_changes(const SteadyIteration& last, const CouplingSettings& settings) {
+  if (last.in_time)
+    return fmt::format("last change of the shape {:.2g} mm (limit {:g} mm and the scatter of the means)",
+                       1000 * last.shape_change, 1000 * settings.shape_tolerance_m);
+  if (!std::isfinite(last.drag_change))
+    return "last change of the shape " + shape_change_text(last, settings);
+  return fmt::format("last change of the drag {}, of the shape {}", drag_change_text(last, settings),
+                     shape_change_text(last, settings));
 }
 
 // Random displacement of the canopy between two means in time with the standard error of the last one: twice
