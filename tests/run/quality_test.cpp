@@ -60,6 +60,16 @@ TEST(Quality, AWarningNamesBothLimitsAndItsReasonIsTheMeasureWithItsValue) {
   EXPECT_EQ(reason_of_refusal("the result must not be used"), "the result must not be used");
 }
 
+TEST(Quality, AWarningWithoutItsRefusalKeepsLimitAndRemedy) {
+  const std::string refused = judge({{"energy_residual", 0.20004}}).warnings.at(0);
+  EXPECT_EQ(without_refusal(refused).find("residual of the energy balance: 20.004 % of the work (limit 20 %; "
+                                          "values above 5 % cause a warning); reduce"),
+            0u)
+      << without_refusal(refused);
+  for (const char* text : {"the result must not be used", "2 of 5 openings must not be used", "coarse"})
+    EXPECT_EQ(without_refusal(text), text);
+}
+
 // Balances reported by two users: 46.6 and 32.7 % had no consequence; openings on default cells have 2.7 %.
 TEST(Quality, AnOpenEnergyBalanceIsNotUsable) {
   EXPECT_FALSE(judge({{"energy_residual", 0.46633}}).usable);

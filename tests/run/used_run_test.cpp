@@ -46,7 +46,8 @@ TEST(UsedRun, TheReasonOfARefusalIsTheWarningBeyondItsLimit) {
   ASSERT_FALSE(judgement.usable);
   const RunEnd end{"runs/a", judgement.warnings, judgement.usable};
   const std::string refused = refusal_of([&] { warnings_if_usable(end); }, ExitCode::bad_data);
-  EXPECT_NE(refused.find(judgement.warnings[0]), std::string::npos) << refused;
+  EXPECT_NE(refused.find(without_refusal(judgement.warnings[0])), std::string::npos) << refused;
+  EXPECT_EQ(refused.find(refused_text), refused.rfind(refused_text)) << refused;
   EXPECT_EQ(refused.find(judgement.warnings[1]), std::string::npos) << refused;
 }
 

@@ -91,6 +91,17 @@ std::string reason_of_refusal(const std::string& warning) {
   return reason.empty() ? warning : reason;
 }
 
+std::string without_refusal(const std::string& warning) {
+  const std::string words = std::string("the result ") + refused_text;
+  const std::size_t at = warning.find(words);
+  if (at == std::string::npos) return warning;
+  std::string text = warning.substr(0, at);
+  while (!text.empty() && std::string_view(" ,:;").find(text.back()) != std::string_view::npos)
+    text.pop_back();
+  text += warning.substr(at + words.size());
+  return text.empty() ? warning : text;
+}
+
 bool QualityLimit::beyond(double value, double bound) const {
   constexpr double rounding = 1 - 1e-9;
   return !std::isfinite(value) || (at_least ? value < rounding * bound : value > bound);

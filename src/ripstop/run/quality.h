@@ -34,6 +34,10 @@ inline constexpr const char* refused_text = "must not be used";
 /// warning without them.
 std::string reason_of_refusal(const std::string& warning);
 
+/// A warning without these words: the measure, its value and limit, and the remedy. For a message that states the refusal
+/// itself. The whole warning if it has nothing else, or where the words refer to something other than the result.
+std::string without_refusal(const std::string& warning);
+
 /// Throws std::logic_error for a key that the list does not have.
 const QualityLimit& quality_limit(std::string_view key);
 

@@ -70,7 +70,8 @@ std::vector<std::string> warnings_if_usable(const RunEnd& end) {
   if (end.usable) return end.warnings();
   std::vector<std::string> reasons;
   for (const std::string& text : end.texts)
-    if (text == not_converged_text || !reason_of_refusal(text).empty()) reasons.push_back(text);
+    if (text == not_converged_text || !reason_of_refusal(text).empty())
+      reasons.push_back(without_refusal(text));
   throw Error(ExitCode::bad_data,
               fmt::format("{}: the result of this run {} (it ended with exit code 4): {}; compute a run "
                           "within its limits of quality (docs/theory/quality.md)",
