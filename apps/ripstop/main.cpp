@@ -67,6 +67,7 @@ int run(int argc, char** argv) {
       "Each command has its own --help with an example.\n"
       "[NFM] and other sources: docs/references.bib.");
   int status = 0;
+  app.formatter(help_format());
   app.option_defaults()->always_capture_default();
   add_studio(app, status);
   add_size(app, status);

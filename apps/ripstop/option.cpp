@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
 
 #include "ripstop/core/toml/problem.h"
 
@@ -31,6 +32,29 @@ CLI::Option* of_run_folder(CLI::Option* option) {
       }))
       ->type_name("FOLDER");
 }
+
+/// "--drogue, --drogue-speed", in alphabetical order: the option library sorts them by their addresses in memory.
+std::string names_of(const std::set<CLI::Option*>& options) {
+  std::set<std::string> names;
+  for (const CLI::Option* one : options) names.insert(one->get_name());
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// The help of an option begins with its description. The options that it needs or excludes come after it.
+class DescriptionFirst : public CLI::Formatter {
+ public:
+  std::string make_option_opts(const CLI::Option* option) const override {
+    const std::string text = CLI::Formatter::make_option_opts(option);
+    return text.substr(
+        0, std::min(text.find(" " + get_label("Needs") + ":"), text.find(" " + get_label("Excludes") + ":")));
+  }
+  std::string make_option_desc(const CLI::Option* option) const override {
+    std::string text = CLI::Formatter::make_option_desc(option);
+    if (!option->get_needs().empty()) text += "; needs " + names_of(option->get_needs());
+    if (!option->get_excludes().empty()) text += "; excludes " + names_of(option->get_excludes());
+    return text;
+  }
+};
 
 /// The words before the first option: a command, and a word that is none of its commands.
 struct Called {
@@ -173,6 +197,10 @@ CLI::Option* add_existing_file(CLI::App& command, const std::string& option, fs:
                    : fmt::format("file \"{}\" does not exist", given);
       }))
       ->type_name("FILE");
+}
+
+std::shared_ptr<CLI::FormatterBase> help_format() {
+  return std::make_shared<DescriptionFirst>();
 }
 
 void show_defaults(CLI::App& app) {

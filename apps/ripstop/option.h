@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -48,6 +49,9 @@ CLI::Option* add_run_folders(CLI::App& command, const std::string& option,
                              std::vector<std::filesystem::path>& folders, const std::string& help);
 CLI::Option* add_existing_file(CLI::App& command, const std::string& option, std::filesystem::path& file,
                                const std::string& help);
+
+/// Of the help of the program; to be set before commands are added, which inherit it.
+std::shared_ptr<CLI::FormatterBase> help_format();
 
 /// In the description of every option of the command and its subcommands. Required ones have no default.
 void show_defaults(CLI::App& app);

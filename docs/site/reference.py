@@ -65,8 +65,6 @@ def options_table(rows):
         names, _, kind = name.partition(" ")
         if "--help" in names:
             continue
-        # CLI11 lists these options by their address in memory, which differs between builds.
-        kind = re.sub(r"(Excludes|Needs):((?: --[\w-]+)+)", lambda match: f"{match[1]}: {' '.join(sorted(match[2].split()))}", kind)
         shown = ", ".join(f"`{one}`" for one in names.split(","))
         lines.append(f"| {shown} | {cell(kind)} | {cell(meaning)} |")
     return "\n".join(lines) + "\n" if len(lines) > 2 else ""

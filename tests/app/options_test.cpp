@@ -130,15 +130,34 @@ std::vector<std::string> options_with_their_defaults(const std::string& command)
   help.push_back("--help");
   const std::string text = ripstop_with(help).output;
   const std::regex entry("\\n  (--[a-z-]+)([^\\n]*(?:\\n {20,}[^\\n]*)*)");
-  const std::regex shown("\\(default: ([^() ]+)\\)$");
+  const std::regex shown("\\(default: ([^() ]+)\\)(; excludes [a-z, -]+)?$");
   std::vector<std::string> found;
   for (std::sregex_iterator i(text.begin(), text.end(), entry), end; i != end; ++i) {
     const std::string rest = (*i)[2];
     std::smatch value;
-    if (rest.find("Needs:") == std::string::npos && std::regex_search(rest, value, shown))
-      found.push_back((*i)[1].str() + "=" + value[1].str());
+    if (std::regex_search(rest, value, shown)) found.push_back((*i)[1].str() + "=" + value[1].str());
   }
   return found;
+}
+
+TEST(Options, TheHelpDescribesAnOptionBeforeThoseThatItExcludesOrNeeds) {
+  const auto entry = [](const std::string& command, const std::string& option) {
+    const std::string text = ripstop_with({command, "--help"}).output;
+    const std::regex lines("\n  " + option + "([^\\n]*(?:\\n {20,}[^\\n]*)*)");
+    std::smatch found;
+    EXPECT_TRUE(std::regex_search(text, found, lines)) << option << "\n" << text;
+    return std::regex_replace(found[1].str(), std::regex("\\s+"), " ");
+  };
+  EXPECT_EQ(entry("size", "--density").find(" NUMBER Density of the air, instead of the height"), 0u)
+      << entry("size", "--density");
+  EXPECT_TRUE(entry("size", "--density").ends_with("; excludes --height")) << entry("size", "--density");
+  EXPECT_TRUE(entry("size", "--height").ends_with("(default: 0); excludes --density"))
+      << entry("size", "--height");
+  EXPECT_TRUE(entry("export", "--drogue-trigger").ends_with("(default: apogee); needs --drogue"))
+      << entry("export", "--drogue-trigger");
+  // Several are in alphabetical order.
+  EXPECT_TRUE(entry("steady", "--batch").ends_with("; excludes --dry-run, --fresh, --hostfile, --json"))
+      << entry("steady", "--batch");
 }
 
 TEST(Options, ADefaultInTheHelpIsTheValueThatIsUsed) {
