@@ -100,9 +100,9 @@ void add_export(CLI::App& app, int& status) {
                       "Deployment trigger: apogee, or a height above the ground [m]");
   add_number(*command, "--deployment-speed", options->deployment_speed, above(0).up_to(1000),
              "Airspeed at line stretch, which sets the filling time (lag) [m/s]")
-      ->default_str(fmt::format(
-          "speed of the run; with [payload], the larger of {:g} m/s and {:g} times the rate of descent",
-          least_deployment_speed, deployment_over_descent));
+      ->default_str(fmt::format("payload.deployment_speed_m_s of the case, else the speed of the run; with "
+                                "[payload], the larger of {:g} m/s and {:g} times the rate of descent",
+                                least_deployment_speed, deployment_over_descent));
   add_number(*command, "--drogue-speed", options->drogue_speed, above(0).up_to(1000),
              "Airspeed at line stretch of the drogue [m/s]")
       ->default_str("as --deployment-speed");

@@ -145,8 +145,8 @@ void print_result(const LoadResult& r, const fs::path& folder, const std::option
   print_text("{}\n  payload {:.4g} kg, parachute {:.3g} kg, S0 {:.4g} m2\n", r.title, r.payload_mass,
              r.parachute_mass, r.reference_area);
   print_replaced_mass(mass, resolved);
-  print_text("  at line stretch: {:.4g} m/s, path {:.3g} deg below the horizon, {}\n", r.speed, r.path_angle,
-             air_text(r.height, r.density, r.air_source));
+  print_text("  at line stretch: {:.4g} m/s ({}), path {:.3g} deg below the horizon, {}\n", r.speed,
+             r.speed_source, r.path_angle, air_text(r.height, r.density, r.air_source));
   print_text(
       "  C_D {:.3f}: {}\n  C_x {:.2f}: {}\n  filling distance {:.3g} D0, exponent of the drag area over "
       "time {:g} (Ludtke: {:g}): {}\n",
@@ -217,10 +217,7 @@ int load(LoadArguments& options) {
     write_fastest(options.out, fastest);
     return show(fastest, options.json, [&] { print_fastest(fastest, options.out, options.mass, resolved); });
   }
-  if (!options.speed)
-    throw Error(ExitCode::usage,
-                "the speed is missing: give --speed M/S, or --fastest for the largest safe speed");
-  request.speed = *options.speed;
+  take_speed(resolved, options.speed, request);
   const LoadResult result = run_load(resolved, request);
   write_load(options.out, result);
   return show(result, options.json, [&] { print_result(result, options.out, options.mass, resolved); });
@@ -276,8 +273,9 @@ void add_load(CLI::App& app, int& status) {
   add_number(*command, "--mass", options->mass, key_range("payload.mass_kg"),
              "Mass of the payload without the parachute [kg]")
       ->default_str("payload.mass_kg of the case");
-  CLI::Option* speed =
-      add_number(*command, "--speed", options->speed, above(0).up_to(1000), "Airspeed at line stretch [m/s]");
+  CLI::Option* speed = add_number(*command, "--speed", options->speed,
+                                  key_range("payload.deployment_speed_m_s"), "Airspeed at line stretch [m/s]")
+                           ->default_str("payload.deployment_speed_m_s of the case");
   CLI::Option* fastest =
       command
           ->add_flag(

@@ -210,8 +210,8 @@ void add_size(CLI::App& app, int& status) {
                             {{"nominal", DragReference::nominal}, {"projected", DragReference::projected}},
                             "Reference area of --drag-coefficient: nominal (S0), or projected (circle of the "
                             "open canopy, as stated by makers)");
-  add_number(*command, "--deployment-speed", r.deployment_speed, above(0).up_to(1000),
-             "Airspeed at line stretch, for the opening load [m/s]")
+  add_number(*command, "--deployment-speed", r.deployment_speed, key_range("payload.deployment_speed_m_s"),
+             "Airspeed at line stretch, for the opening load and the case [m/s]")
       ->default_str(fmt::format("the larger of {:g} m/s and {:g} times the rate of descent",
                                 least_deployment_speed, deployment_over_descent));
   command->add_option("--line-material", r.line_material, "Line material of the library")

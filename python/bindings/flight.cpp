@@ -57,8 +57,11 @@ void add_flight(py::module_& module) {
       fmt::format(
           "Exports the parachute of a steady run to flight simulators: ripstop export.\n\n"
           "run: a Steady or its run folder.\n"
-          "deployment_speed_m_s: airspeed for the filling time [m/s], above 0. None: speed of the run, or\n"
-          "  with [payload] {:g} times its rate of descent, but at least {:g} m/s.\n"
+          "deployment_speed_m_s: airspeed for the filling time [m/s], above 0. None: that of [payload] of "
+          "the\n"
+          "  case, else the speed of the run, or with [payload] {:g} times its rate of descent, but at "
+          "least\n"
+          "  {:g} m/s.\n"
           "flight: run folder of a flight of this parachute, whose coefficient in descent replaces the\n"
           "  axial one.\n\n"
           "Returns an ExportedParachute: areas in [m2], lengths in [m], masses in [kg], times in [s].\n"

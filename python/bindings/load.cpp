@@ -47,23 +47,25 @@ void add_load(py::module_& module) {
       "Trajectory with the drag area of a computed opening; empty without one.");
   module.def(
       "load",
-      [](PyCase given, double mass, double speed, std::optional<double> height, std::optional<double> ground,
-         double angle, const Reefing& reefing, const std::optional<SteadySource>& steady,
-         const std::optional<Path>& opening, std::optional<double> drag,
-         std::optional<double> opening_coefficient, std::optional<double> filling_constant,
-         std::optional<double> filling_exponent, std::optional<double> snatch_speed,
-         std::optional<double> packed, std::optional<double> payload_drag_area,
-         std::optional<double> measured_load, const std::optional<Path>& out) {
+      [](PyCase given, double mass, std::optional<double> speed, std::optional<double> height,
+         std::optional<double> ground, double angle, const Reefing& reefing,
+         const std::optional<SteadySource>& steady, const std::optional<Path>& opening,
+         std::optional<double> drag, std::optional<double> opening_coefficient,
+         std::optional<double> filling_constant, std::optional<double> filling_exponent,
+         std::optional<double> snatch_speed, std::optional<double> packed,
+         std::optional<double> payload_drag_area, std::optional<double> measured_load,
+         const std::optional<Path>& out) {
         LoadRequest r;
-        r.payload_mass = mass, r.speed = speed, r.height = height, r.ground = ground, r.path_angle = angle;
+        r.payload_mass = mass, r.height = height, r.ground = ground, r.path_angle = angle;
         r.drag_coefficient = drag, r.opening_coefficient = opening_coefficient;
         r.filling_constant = filling_constant, r.filling_exponent = filling_exponent;
         r.snatch_speed = snatch_speed, r.packed_drag_area = packed, r.payload_drag_area = payload_drag_area;
         r.measured_load = measured_load;
+        take_speed(given.settings(), speed, r);
         if (opening) r.opening = *opening;
         return load(given, r, steady, reefing, out);
       },
-      py::arg("case"), py::arg("payload_mass_kg"), py::arg("speed_m_s"), py::kw_only(),
+      py::arg("case"), py::arg("payload_mass_kg"), py::arg("speed_m_s") = py::none(), py::kw_only(),
       py::arg("height_m") = py::none(), py::arg("ground_m") = py::none(), py::arg("path_angle_deg") = 90.0,
       py::arg("reefing") = Reefing(), py::arg("steady") = py::none(), py::arg("opening") = py::none(),
       py::arg("drag_coefficient") = py::none(), py::arg("opening_coefficient") = py::none(),
@@ -72,7 +74,7 @@ void add_load(py::module_& module) {
       py::arg("payload_drag_area_m2") = py::none(), py::arg("measured_load_n") = py::none(),
       py::arg("out") = py::none(),
       "Estimates opening and snatch loads for a payload [kg] by several methods: ripstop load.\n\n"
-      "speed_m_s: airspeed at line stretch.\n"
+      "speed_m_s: airspeed at line stretch (None: payload.deployment_speed_m_s of the case).\n"
       "height_m: height above sea level at line stretch, with the standard atmosphere there (None: air of "
       "the case).\n"
       "ground_m: height of the ground, where the flight ends (None: 0 with height_m, else none).\n"

@@ -8,6 +8,7 @@ namespace ripstop::python {
 inline constexpr std::string_view meanings_of_design = R"(
 # load()
 Load.speed_m_s: airspeed at line stretch
+Load.speed_from: source of this speed
 Load.height_m: height above sea level at line stretch
 Load.required_load_n: larger one of highest_design_load_n and snatch load, for the required hardware
 Load.opening_coefficient: opening force coefficient C_x

@@ -117,11 +117,19 @@ TEST(LoadCommand, NeedsASpeedOrFindsTheFastestOne) {
   const std::string circular = examples + "flat-circular/case.toml";
   const Finished none = ripstop_with({"load", circular, "--mass", "5"});
   EXPECT_EQ(none.code, 2);
-  EXPECT_NE(none.output.find("--fastest"), std::string::npos) << none.output;
+  for (const char* remedy : {"--speed", "payload.deployment_speed_m_s", "--fastest"})
+    EXPECT_NE(none.output.find(remedy), std::string::npos) << remedy << "\n" << none.output;
   const TemporaryFolder folder("fastest");
   const Finished fastest =
       ripstop_with({"load", circular, "--mass", "5", "--fastest", "--out", (folder.path / "out").string()});
   EXPECT_EQ(fastest.code, 0) << fastest.output;
+  const Finished of_case =
+      ripstop_with({"load", circular, "--mass", "5", "--set", "payload.deployment_speed_m_s=31", "--out",
+                    (folder.path / "case").string()});
+  EXPECT_EQ(of_case.code, 0) << of_case.output;
+  EXPECT_NE(of_case.output.find("at line stretch: 31 m/s (payload.deployment_speed_m_s of the case)"),
+            std::string::npos)
+      << of_case.output;
   for (const char* text : {"FASTEST SAFE DEPLOYMENT", "USE ", "the safe speed for infinite mass"})
     EXPECT_NE(fastest.output.find(text), std::string::npos) << text << "\n" << fastest.output;
 }

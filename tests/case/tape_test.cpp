@@ -8,6 +8,7 @@
 #include "../small_case.h"
 #include "ripstop/canopy/margins.h"
 #include "ripstop/case/assemble.h"
+#include "ripstop/case/payload.h"
 #include "ripstop/case/resolve.h"
 #include "ripstop/case/summary.h"
 #include "ripstop/core/error.h"
@@ -98,6 +99,25 @@ TEST(Tape, OfAPayloadIsForTheSpeedAtWhichItOpens) {
   given.payload.mass_kg = 10;
   EXPECT_NE(tape_material(checked(given)).name, no_tape);
   EXPECT_NE(tape_material(checked(given)).from.find("20 m/s"), std::string::npos);
+}
+
+TEST(UsualOpening, IsAtTheDeploymentSpeedOfTheCaseUnlessAnOpeningWithThePayloadIsComputed) {
+  Case given = flat_circular_case(3, 1500, 5);
+  given.parachute.tape.material.reset();
+  given.payload.mass_kg = 10;
+  const UsualOpening assumed = usual_opening(checked(given));
+  EXPECT_EQ(assumed.speed, least_deployment_speed);
+  EXPECT_EQ(assumed.from.find("assumed"), 0u) << assumed.from;
+  given.payload.deployment_speed_m_s = 30;
+  const UsualOpening known = usual_opening(checked(given));
+  EXPECT_EQ(known.speed, 30);
+  EXPECT_EQ(known.from, "payload.deployment_speed_m_s");
+  EXPECT_NEAR(known.load / assumed.load, 2.25, 1e-12);
+  EXPECT_NE(tape_material(checked(given)).from.find("at 30 m/s (payload.deployment_speed_m_s)"),
+            std::string::npos);
+  given.inflation.mass = InflationSettings::Mass::payload, given.inflation.air = AirModel::coupled;
+  EXPECT_EQ(usual_opening(checked(given)).speed, 5);
+  EXPECT_EQ(usual_opening(checked(given)).from, "flow.speed_m_s");
 }
 
 TEST(Tape, HasItsOriginAndIsWrittenOut) {

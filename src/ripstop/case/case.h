@@ -114,7 +114,8 @@ struct CouplingKeys : CouplingOptions {
 /// [payload] as given.
 struct PayloadKeys {
   std::optional<double> mass_kg;  // below the parachute; a steady run finds the speed at which drag is weight
-  double drag_area_m2 = 0;        // C_D S of the payload in the undisturbed stream
+  std::optional<double> deployment_speed_m_s;  // airspeed at line stretch
+  double drag_area_m2 = 0;                     // C_D S of the payload in the undisturbed stream
 };
 
 /// [deployment] as given.

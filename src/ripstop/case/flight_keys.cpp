@@ -11,6 +11,15 @@ void describe(Fields& fields, PayloadKeys& payload) {
               "Mass below the parachute, without the mass of the parachute: `ripstop steady` computes the "
               "speed at which the drag equals the weight of both.")
       .absent("the speed is given");
+  fields
+      .number(
+          "deployment_speed_m_s", payload.deployment_speed_m_s, above(0).up_to(1000),
+          "Airspeed at line stretch. `ripstop load` without `--speed`, the margins of `ripstop check`, the "
+          "choice of a default tape and the filling time of `ripstop export` are for this speed. With "
+          "inflation.mass = \"payload\" the opening has flow.speed_m_s instead.")
+      .absent(
+          "without mass_kg flow.speed_m_s, else the larger of 20 m/s and three times the rate of descent; "
+          "`ripstop load` needs a speed");
   fields.number(
       "drag_area_m2", payload.drag_area_m2, from(0).up_to(1e4),
       "Drag area C_D S of the payload in the undisturbed stream: it carries a part of the weight in `ripstop "

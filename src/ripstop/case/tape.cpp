@@ -63,14 +63,20 @@ TapeMaterial tape_for(const Case& given, double line_load) {
 
 UsualOpening usual_opening(const Case& given) {
   const Air stream = air(given);
-  const bool sinks = given.payload.mass_kg && given.inflation.mass != InflationSettings::Mass::payload;
-  const double speed = sinks ? usual_deployment_speed(stream.speed) : stream.speed;
-  const double known = experience(given.parachute).opening_coefficient;
+  const bool at_speed_of_flow = given.inflation.mass == InflationSettings::Mass::payload;
+  const std::optional<double> known =
+      at_speed_of_flow ? std::optional<double>() : given.payload.deployment_speed_m_s;
+  const bool assumed = !known && given.payload.mass_kg && !at_speed_of_flow;
+  const double speed = known.value_or(assumed ? usual_deployment_speed(stream.speed) : stream.speed);
+  const double coefficient = experience(given.parachute).opening_coefficient;
   const double drag = design_drag_coefficient(
       given.parachute, given.inflation.drag_coefficient.value_or(usual_drag_coefficient(given.parachute)));
-  const double load = (known > 0 ? known : unknown_opening) * drag * nominal_area(given.parachute) * 0.5 *
-                      stream.density * speed * speed;
-  return {speed, load, sinks ? "assumed: the case gives no speed of the opening" : "flow.speed_m_s"};
+  const double load = (coefficient > 0 ? coefficient : unknown_opening) * drag *
+                      nominal_area(given.parachute) * 0.5 * stream.density * speed * speed;
+  return {speed, load,
+          known     ? "payload.deployment_speed_m_s"
+          : assumed ? "assumed: the case does not give payload.deployment_speed_m_s"
+                    : "flow.speed_m_s"};
 }
 
 TapeMaterial tape_material(const Case& given) {

@@ -19,7 +19,8 @@ struct UsualOpening {
   double speed = 0, load = 0;  // [m/s], [N]
   std::string from;            // source of the speed
 };
-/// At the case's speed. A payload that the case sinks with opens its parachute at usual_deployment_speed(). Throws
+/// At payload.deployment_speed_m_s, else at the case's speed. A payload that descends at the speed of the case opens its
+/// parachute at usual_deployment_speed(). The speed of a coupled opening with its payload is flow.speed_m_s. Throws
 /// Error(usage) for a case without air.
 UsualOpening usual_opening(const Case& given);
 

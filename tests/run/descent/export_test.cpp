@@ -333,6 +333,12 @@ TEST_F(Export, ARunWithAPayloadHasTheDeploymentSpeedOfSizeAndStatesIt) {
     EXPECT_NE(text.find(assumed), std::string::npos) << text;
   run.result.speed = 9;
   EXPECT_EQ(exported(run).deployment_speed, 9 * deployment_over_descent);
+  descends.payload.deployment_speed_m_s = 31;
+  run.resolved = resolve(descends);
+  EXPECT_EQ(exported(run).deployment_speed, 31);
+  EXPECT_FALSE(exported(run).speed_assumed);
+  EXPECT_EQ(exported(run).deployment_speed_from, "payload.deployment_speed_m_s of the case");
+  EXPECT_EQ(exported(run, 12).deployment_speed, 12);
 }
 
 TEST_F(Export, WithAFlightHasItsCoefficientInDescentAndStatesSo) {

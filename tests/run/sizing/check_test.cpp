@@ -26,5 +26,16 @@ TEST(CheckMargins, OfMembersThatTheOpeningBreaksAreWarnings) {
   EXPECT_TRUE(warns_of_opening(run_check(resolve(given))));
 }
 
+TEST(CheckMargins, AreThoseAtTheDeploymentSpeedOfThePayload) {
+  Case given = read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/flat-circular/case.toml");
+  given.payload.mass_kg = 3, given.flow.speed_m_s = 5;
+  EXPECT_FALSE(warns_of_opening(run_check(resolve(given))));
+  given.payload.deployment_speed_m_s = 90;
+  const std::vector<std::string> warnings = run_check(resolve(given)).warnings;
+  EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const std::string& text) {
+    return text.starts_with("in an opening at 90 m/s (payload.deployment_speed_m_s)");
+  }));
+}
+
 }  // namespace
 }  // namespace ripstop

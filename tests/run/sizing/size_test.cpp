@@ -127,6 +127,28 @@ TEST(Size, ItsCaseFileIsACaseOfThatParachute) {
   }
 }
 
+// The case has the speed of its design load: ripstop load and check of it do not assume another one.
+TEST(Size, ItsCaseHasTheDeploymentSpeedOfTheDesignLoad) {
+  SizeRequest asked = sized();
+  EXPECT_EQ(parse_case(run_size(asked).case_text, "sized.toml").payload.deployment_speed_m_s, 20);
+  EXPECT_NE(run_size(asked).case_text.find(": the default of ripstop size"), std::string::npos);
+  asked.deployment_speed = 27.5;
+  const SizeResult r = run_size(asked);
+  EXPECT_EQ(r.case_text.find(": the default of ripstop size"), std::string::npos);
+  const Settings resolved = resolve(parse_case(r.case_text, "sized.toml"));
+  EXPECT_EQ(r.given.payload.deployment_speed_m_s, 27.5);
+  LoadRequest load;
+  load.payload_mass = *resolved.payload().mass_kg;
+  take_speed(resolved, {}, load);
+  EXPECT_EQ(load.speed, 27.5);
+  const LoadResult again = run_load(resolved, load);
+  EXPECT_NEAR(again.design_load / r.design_load, 1, 1e-9);
+  EXPECT_EQ(again.speed_source, "payload.deployment_speed_m_s of the case");
+  take_speed(resolved, 20, load);
+  EXPECT_EQ(load.speed, 20);
+  EXPECT_EQ(load.speed_source, "given");
+}
+
 // A flow whose drag coefficient is 10 % off the table's: the next diameter makes up for it.
 TEST(Size, VerifyAdjustsTheDiameterUntilTheRateIsMet) {
   const SizeRequest asked = sized();

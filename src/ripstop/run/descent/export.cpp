@@ -22,11 +22,15 @@ namespace {
 /// The speed of a run with a payload is its rate of descent, at which no parachute is deployed.
 void take_deployment_speed(const FinishedSteady& run, const std::optional<double>& given,
                            ExportedParachute& p) {
-  p.speed_assumed = !given && run.resolved.payload().mass_kg;
-  p.deployment_speed = given             ? *given
+  const PayloadKeys& payload = run.resolved.payload();
+  const std::optional<double>& known = given ? given : payload.deployment_speed_m_s;
+  p.speed_assumed = !known && payload.mass_kg;
+  p.deployment_speed = known             ? *known
                        : p.speed_assumed ? usual_deployment_speed(run.result.speed)
                                          : run.result.speed;
-  p.deployment_speed_from = given ? "given" : "speed of the run";
+  p.deployment_speed_from = given   ? "given"
+                            : known ? "payload.deployment_speed_m_s of the case"
+                                    : "speed of the run";
   if (p.speed_assumed)
     p.deployment_speed_from = fmt::format(
         "assumed, the larger of {:g} m/s and {:g} times the rate of descent of {:.3g} m/s, as ripstop size",

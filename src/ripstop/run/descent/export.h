@@ -76,8 +76,8 @@ void each_member(T& p, Visit&& visit) {
 }
 std::string to_json(const ExportedParachute& parachute);
 
-/// `deployment_speed` [m/s], for the filling time n D0 / v; absent: the run's own speed, or of a run that has computed its
-/// rate of descent usual_deployment_speed(), for which `ripstop size` designs. The drag area is that of the run,
+/// `deployment_speed` [m/s], for the filling time n D0 / v; absent: that of the case, else the run's own speed, or of a run
+/// that has computed its rate of descent usual_deployment_speed(), for which `ripstop size` designs. The drag area is that of the run,
 /// or of a `flight` of the same parachute. Throws Error(usage) for the flight of another one.
 ExportedParachute exported(const FinishedSteady& run, std::optional<double> deployment_speed = {},
                            const std::optional<FinishedFlight>& flight = {});

@@ -471,7 +471,7 @@ LoadResult run_load(const Settings& resolved, const LoadRequest& request, const 
   r.parachute_mass = parachute_mass(resolved);
   OpeningAir air = opening_air(resolved, request.height, request.ground);
   r.height = air.height, r.density = air.density, r.air_source = std::move(air.from);
-  r.speed = request.speed, r.path_angle = request.path_angle;
+  r.speed = request.speed, r.speed_source = request.speed_source, r.path_angle = request.path_angle;
   choose_coefficients(resolved, request, inputs, r);
   r.warnings = inputs.warnings;
   for (std::string& text : strain_warnings(resolved, 0)) r.warnings.push_back(std::move(text));

@@ -25,8 +25,9 @@ struct ReefedStage {
 
 /// The request; absent values follow from the case and from data of the family.
 struct LoadRequest {
-  double payload_mass = 0;       // [kg]
-  double speed = 0;              // through the air at line stretch [m/s]
+  double payload_mass = 0;  // [kg]
+  double speed = 0;         // through the air at line stretch [m/s]
+  std::string speed_source = "given";
   std::optional<double> height;  // above sea level there [m]; absent: opening_air() of the case
   /// Above sea level, where the flight ends [m]. Absent: sea level, or with the air of the case nowhere.
   std::optional<double> ground;
@@ -97,7 +98,8 @@ struct LoadResult {
   std::string title;
   double payload_mass = 0, parachute_mass = 0;  // [kg]
   double speed = 0, path_angle = 0;             // at line stretch [m/s], below the horizon [deg]
-  double height = 0, density = 0;               // there, above sea level [m], [kg/m3]
+  std::string speed_source;
+  double height = 0, density = 0;  // there, above sea level [m], [kg/m3]
   std::string air_source;
   double nominal_diameter = 0, reference_area = 0;  // [m], [m2]
   double drag_coefficient = 0, opening_coefficient = 0, filling_constant = 0, filling_exponent = 0;
@@ -136,6 +138,7 @@ void each_member(T& r, Visit&& visit) {
   visit("payload_mass_kg", r.payload_mass);
   visit("parachute_mass_kg", r.parachute_mass);
   visit("speed_m_s", r.speed);
+  visit("speed_from", r.speed_source);
   visit("path_angle_deg", r.path_angle);
   visit("height_m", r.height);
   visit("density_kg_m3", r.density);
@@ -191,6 +194,9 @@ struct DragCoefficient {
 /// on two grids differ by 4 %, hence its coefficients by 8 %: docs/guide/fly.md).
 inline constexpr double usual_drag_uncertainty = 0.1;
 DragCoefficient opening_drag_coefficient(const Settings& resolved, const LoadRequest& request);
+
+/// The speed of the request: `given`, else payload.deployment_speed_m_s of the case. Throws Error(usage) without both.
+void take_speed(const Settings& resolved, const std::optional<double>& given, LoadRequest& request);
 
 /// Relative uncertainty of an opening load: of the drag area and of the scatter of repeated openings (opening_scatter), as
 /// independent parts.

@@ -296,6 +296,7 @@ Case example_case(const SizeRequest& request, const SizeResult& r) {
   fresh.origins = given.origins;
   fresh.origins.erase("parachute.tape.material");
   fresh.payload.mass_kg = request.payload_mass;
+  fresh.payload.deployment_speed_m_s = r.deployment_speed;
   if (request.density)
     fresh.flow.density_kg_m3 = r.density;
   else

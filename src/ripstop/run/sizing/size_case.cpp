@@ -5,6 +5,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "ripstop/case/payload.h"
 #include "ripstop/core/build_info.h"
 #include "ripstop/core/toml/fields.h"
 #include "ripstop/core/toml/write.h"
@@ -125,8 +126,10 @@ std::string size_case_text(const SizeRequest& request, const SizeResult& r) {
   text += parachute_text(r);
   text += fmt::format(
       "\n[payload]  # instead of a speed: ripstop steady computes the speed at which drag equals weight\n"
-      "mass_kg = {}\n\n[flow]\n",
-      r.payload_mass);
+      "mass_kg = {}\n"
+      "deployment_speed_m_s = {}  # airspeed at line stretch, of the design load{}\n\n[flow]\n",
+      r.payload_mass, r.deployment_speed,
+      r.deployment_speed == usual_deployment_speed(r.descent_rate) ? ": the default of ripstop size" : "");
   text += request.density ? fmt::format("density_kg_m3 = {}\n", r.density)
                           : fmt::format("height_m = {}  # above sea level, standard atmosphere\n", r.height);
   text += fmt::format("speed_m_s = {}  # start value of the iteration\n", r.descent_rate);
