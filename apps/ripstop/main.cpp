@@ -30,7 +30,8 @@ int parse(CLI::App& app, int argc, char** argv, const int& status) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& done) {  // --help, --version
-    return app.exit(done);
+    const std::string message = unknown_command(app, argc, argv);
+    return message.empty() ? app.exit(done) : failed(ExitCode::usage, message);
   } catch (const CLI::ParseError& error) {
     return failed(ExitCode::usage, usage_message(app, error, argc, argv));
   } catch (const Error& error) {

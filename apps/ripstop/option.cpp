@@ -127,11 +127,19 @@ std::string wrong_number_of_values(const CLI::Option& option, const std::string&
                      needed > 1 ? fmt::format("{} values", needed) : std::string("a value"));
 }
 
+std::string not_a_command(const Called& at) {
+  return fmt::format("\"{}\" is not a command{}", at.unknown,
+                     suggestion(at.unknown, command_names(*at.command)));
+}
+
+std::string with_help(const std::string& message, const Called& at) {
+  return fmt::format("{} (see {} --help)", message, at.words);
+}
+
 std::string mistake(const CLI::App& app, const CLI::ParseError& error, const Called& at) {
   const std::string text = error.what();
   const std::vector<std::string> commands = command_names(*at.command);
-  if (!at.unknown.empty())
-    return fmt::format("\"{}\" is not a command{}", at.unknown, suggestion(at.unknown, commands));
+  if (!at.unknown.empty()) return not_a_command(at);
   if (dynamic_cast<const CLI::ExtrasError*>(&error)) return unknown_argument(app, at);
   if (dynamic_cast<const CLI::ExcludesError*>(&error))
     return pair_message(text, " excludes ", "{} and {} exclude each other: give one of them");
@@ -215,8 +223,12 @@ void show_defaults(CLI::App& app) {
 
 std::string usage_message(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
   const Called at = called(app, argc, argv);
-  return fmt::format("{} (see {} --help){}", mistake(app, error, at), at.words,
-                     at.unknown.empty() ? example_of(*at.command) : "");
+  return with_help(mistake(app, error, at), at) + (at.unknown.empty() ? example_of(*at.command) : "");
+}
+
+std::string unknown_command(const CLI::App& app, int argc, char** argv) {
+  const Called at = called(app, argc, argv);
+  return at.unknown.empty() ? "" : with_help(not_a_command(at), at);
 }
 
 }  // namespace ripstop::cli

@@ -58,5 +58,7 @@ void show_defaults(CLI::App& app);
 
 /// A mistake of the command line: the option with its meaning, the nearest valid name, and an example.
 std::string usage_message(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv);
+/// Message for a word that is not a command, which a --help after it would hide; empty: there is none.
+std::string unknown_command(const CLI::App& app, int argc, char** argv);
 
 }  // namespace ripstop::cli

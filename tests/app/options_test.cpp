@@ -119,7 +119,16 @@ TEST(Options, AMistypedCommandOrOptionIsReportedWithTheNearestOne) {
   EXPECT_EQ(option.code, 2);
   EXPECT_NE(option.output.find("did you mean --speed?"), std::string::npos) << option.output;
   EXPECT_NE(option.output.find("ripstop check --help"), std::string::npos) << option.output;
-  for (const Finished& run : {command, nested, option, ripstop_with({"check"})})
+  // A request for help does not hide the mistake.
+  const Finished help = ripstop_with({"chekc", "--help"});
+  EXPECT_EQ(help.code, 2);
+  EXPECT_NE(help.output.find("\"chekc\" is not a command; did you mean check?"), std::string::npos)
+      << help.output;
+  EXPECT_EQ(ripstop_with({"calibrate", "dampign", "--help"}).code, 2);
+  EXPECT_EQ(ripstop_with({"nosuchcommand", "--version"}).code, 2);
+  EXPECT_EQ(ripstop_with({"--help"}).code, 0);
+  EXPECT_EQ(ripstop_with({"check", stratos, "--help"}).code, 0);
+  for (const Finished& run : {command, nested, option, help, ripstop_with({"check"})})
     EXPECT_LT(run.output.size(), 300u) << run.output;  // one sentence, not a page of help
 }
 
