@@ -303,6 +303,13 @@ TEST(Size, OverMassRateHeightAndFamilyIsBalancedOrRefused) {
 TEST(Size, ImpossibleInputIsRefused) {
   SizeRequest asked = sized("flat-circula");
   EXPECT_NE(refused(asked).find("did you mean flat-circular?"), std::string::npos);
+  const std::string slotted = refused(sized("ringsail"));
+  EXPECT_EQ(
+      slotted.find("--family ringsail: no computed drag coefficient is shipped for this family; use one of "),
+      0u)
+      << slotted;
+  EXPECT_NE(slotted.find(", or write a case of this family and use ripstop load"), std::string::npos)
+      << slotted;
   asked = sized();
   asked.payload_mass = -2.4;
   EXPECT_NE(refused(asked).find("payload mass (kg) of -2.4"), std::string::npos);

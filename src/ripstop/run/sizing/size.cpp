@@ -37,9 +37,11 @@ FamilyDrag drag_of(const std::string& family) {
     names.push_back(row.family);
   }
   const std::string near = nearest(family, names);
-  throw Error(ExitCode::usage,
-              fmt::format("--family {}: no such family in examples/families.json; {}available: {}", family,
-                          near.empty() ? "" : "did you mean " + near + "? ", fmt::join(names, ", ")));
+  throw Error(
+      ExitCode::usage,
+      fmt::format("--family {}: no computed drag coefficient is shipped for this family; {}use one of {}, "
+                  "or write a case of this family and use ripstop load",
+                  family, near.empty() ? "" : "did you mean " + near + "? ", fmt::join(names, ", ")));
 }
 
 /// Drag and weight at `factor` times the size of the example.
