@@ -11,6 +11,8 @@ namespace ripstop::inline flight {
 
 const std::vector<ValidRange>& valid_ranges() {
   constexpr double any = std::numeric_limits<double>::infinity();
+  constexpr const char* calibrated_cells =
+      "the cell sizes for which the porosity coefficients of [NFM] are calibrated";
   static const std::vector<ValidRange> ranges = {
       // C_x and C_D are subsonic values; the drag coefficient of textile canopies changes near the speed of sound.
       {infinite_mass_model, "Mach number", "", 0, 0.8, any, "subsonic coefficients (assumed)"},
@@ -28,9 +30,9 @@ const std::vector<ValidRange>& valid_ranges() {
        "the fit to a measured curve has 6 % too little air flow at 2 kPa and 18 % at 11 kPa"},
       // Drag of the calibrated coefficients falls by 8 to 14 % from cells of 0.04 m to smaller ones: the range is 2 %.
       {porous_cells_model, "cell width across the stream", " m", 0.0196, 0.0204, any,
-       "calibrated on cells of 0.02 x 0.02 x 0.0267 m"},
+       "cells of 0.02 x 0.02 x 0.0267 m", calibrated_cells},
       {porous_cells_model, "cell length along the stream", " m", 0.0261, 0.0272, any,
-       "calibrated on cells of 0.02 x 0.02 x 0.0267 m"},
+       "cells of 0.02 x 0.02 x 0.0267 m", calibrated_cells},
       {scaled_drag_model, "Reynolds number", "", 1e4, any, any, "as for the run (assumed)"},
   };
   return ranges;
@@ -46,8 +48,9 @@ std::vector<std::string> outside_range(const std::string& model, const std::vect
                                     ? fmt::format("{:g} to {:g}{}", r.low, r.high, r.unit)
                                     : fmt::format("{:g}{} and above", r.low, r.unit);
       const std::string value = rounded_apart(v.value, v.value < r.low ? r.low : r.high).first;
-      std::string text = fmt::format("{} of {}{} is outside the range of the {}, {} ({})", r.quantity, value,
-                                     r.unit, r.model, range, r.source);
+      const std::string limits = r.outside_of ? r.outside_of : std::string("the range of the ") + r.model;
+      std::string text = fmt::format("{} of {}{} is outside {}, {} ({})", r.quantity, value, r.unit, limits,
+                                     range, r.source);
       if (v.value > r.refused_above)
         throw Error(ExitCode::usage, fmt::format("{}; above {:g} it gives no result", text, r.refused_above));
       all.push_back(std::move(text));

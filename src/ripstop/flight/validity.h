@@ -13,6 +13,7 @@ struct ValidRange {
   double low = 0, high = 0;  // outside of these the answer has a warning
   double refused_above = 0;  // infinite: never refused
   const char* source;
+  const char* outside_of = nullptr;  // of a warning, in place of "the range of the" model
 };
 const std::vector<ValidRange>& valid_ranges();
 
@@ -22,8 +23,7 @@ inline constexpr const char *infinite_mass_model = "infinite-mass opening load",
                             *filling_model = "handbook filling distance", *flow_model = "incompressible flow",
                             *scaled_drag_model = "drag area of a run at another speed",
                             *permeability_model = "permeability of open cloth",
-                            *porous_cells_model =
-                                "drag of the coefficients of [NFM] (porosity_model = \"paper\")";
+                            *porous_cells_model = "porosity coefficients of [NFM]";
 
 struct ModelValue {
   const char* quantity;
