@@ -22,6 +22,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/run/opening/fastest.h"
+#include "ripstop/run/opening/filling.h"
 #include "units_option.h"
 #include "warnings.h"
 
@@ -44,6 +45,12 @@ std::string air_text(double height, double density, const std::string& from) {
   return fmt::format("{:.4g} m above sea level, {:.4g} kg/m3 ({})", height, density, from);
 }
 
+/// Of a filling below 46 m/s, where the filling constant depends on the speed.
+std::string slow_filling_text(double constant) {
+  return fmt::format(" (n = {:.3g} above 46 m/s; below it from t_f = {:.2f} D0 / v^0.85 in ft and ft/s)",
+                     constant, slow_filling_coefficient(constant));
+}
+
 /// The caution is printed where it differs from that of the stage before.
 void print_stage(const StageLoads& s, const StageLoads* before, const LoadResult& r,
                  const std::string& known_caution) {
@@ -58,9 +65,7 @@ void print_stage(const StageLoads& s, const StageLoads* before, const LoadResult
           ? " (the canopy of the stage before is still larger than in steady flow)"
           : "",
       s.filling_time, s.filling_constant,
-      s.filling_constant < 0.9995 * r.filling_constant
-          ? fmt::format(" ({:.3g} D0 above 46 m/s, less below it)", r.filling_constant)
-          : "",
+      s.filling_constant == r.filling_constant ? "" : slow_filling_text(r.filling_constant),
       share < 0.9995
           ? fmt::format(" x {:.3g} (square root of the drag area that the stage adds over the full one)",
                         share)

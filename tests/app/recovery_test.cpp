@@ -100,6 +100,22 @@ TEST(LoadCommand, MarksTheMethodOfTheDesignLoad) {
   EXPECT_NE(run.output.find("required hardware"), std::string::npos) << run.output;
 }
 
+TEST(LoadCommand, StatesTheFillingConstantBelow46MetresPerSecond) {
+  const TemporaryFolder folder("load");
+  const auto at = [&](const char* speed, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> all = {
+        "load",  examples + "flat-circular/case.toml", "--mass", "2.4", "--speed", speed, "--height", "1000",
+        "--out", (folder.path / "out").string()};
+    all.insert(all.end(), more.begin(), more.end());
+    return ripstop_with(all).output;
+  };
+  const std::string form = "(n = 8 above 46 m/s; below it from t_f = 4.00 D0 / v^0.85 in ft and ft/s)";
+  EXPECT_NE(at("25").find("= 7.75 D0 / speed " + form), std::string::npos) << at("25");
+  EXPECT_NE(at("40").find("= 8.31 D0 / speed " + form), std::string::npos) << at("40");
+  EXPECT_EQ(at("50").find("v^0.85"), std::string::npos) << at("50");
+  EXPECT_EQ(at("40", {"--filling-constant", "8"}).find("above 46 m/s"), std::string::npos);
+}
+
 TEST(PatternCommand, ListsTheCutOfEachPieceAndTheHems) {
   const TemporaryFolder folder("pattern");
   const Finished run =

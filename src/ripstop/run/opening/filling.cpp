@@ -34,10 +34,15 @@ constexpr Row table_rows[] = {
 
 }  // namespace
 
+double slow_filling_coefficient(double constant) {
+  constexpr double flat_circular = 8;
+  return constant / flat_circular * 4.0;
+}
+
 double filling_constant_at(double constant, double speed) {
-  constexpr double lowest = 150, flat_circular = 8;  // [ft/s], -
-  const double feet = speed / foot;                  // [ft/s]
-  return feet < lowest ? constant / flat_circular * 4.0 * std::pow(feet, 0.15) : constant;
+  constexpr double lowest = 150;     // [ft/s]
+  const double feet = speed / foot;  // [ft/s]
+  return feet < lowest ? slow_filling_coefficient(constant) * std::pow(feet, 0.15) : constant;
 }
 
 KnownFilling known_filling(const std::string& type) {

@@ -12,6 +12,8 @@ struct KnownFilling {
   const char* source = "";
 };
 
+/// c of t_f = c D_0 / v^0.85 in feet and seconds below 150 ft/s, for a family with this n above it.
+double slow_filling_coefficient(double constant);
 /// n at a speed at line stretch [m/s]. Knacke's constants are those from 150 to 500 ft/s. Below, solid flat circular
 /// canopies (n = 8) have t_f = 4.0 D_0 / v^0.85 in feet and seconds, that is n = 4.0 v^0.15; the constants of other
 /// families are in proportion (assumed).
