@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -199,8 +200,9 @@ void print_result(const LoadResult& r, const fs::path& folder, const std::option
   print_text("\npeak load of the trajectory {:.1f} N after {:.3f} s\n", r.peak_load, r.peak_time);
   if (r.snatch) print_snatch(*r.snatch);
   if (r.steady_reached)
-    print_text("steady descent at {:.3g} m/s; the trajectory ends {:.2f} s and {:.4g} m after line stretch\n",
-               r.steady_speed, r.steady_time, r.steady_drop);
+    print_text("steady descent at {:.3g} m/s; the trajectory ends {:.2f} s after line stretch, {:.4g} m {}\n",
+               r.steady_speed, r.steady_time, std::abs(r.steady_drop),
+               r.steady_drop < 0 ? "higher" : "lower");
   else
     print_text("steady descent is NOT reached above the ground: {:.3g} m/s at impact after {:.2f} s\n",
                r.steady_speed, r.steady_time);

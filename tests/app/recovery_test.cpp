@@ -116,6 +116,16 @@ TEST(LoadCommand, StatesTheFillingConstantBelow46MetresPerSecond) {
   EXPECT_EQ(at("40", {"--filling-constant", "8"}).find("above 46 m/s"), std::string::npos);
 }
 
+TEST(LoadCommand, StatesTheHeightThatIsLostUntilTheSteadyDescent) {
+  const TemporaryFolder folder("load");
+  const Finished run =
+      ripstop_with({"load", examples + "flat-circular/case.toml", "--mass", "2.4", "--speed", "25", "--angle",
+                    "0", "--height", "1000", "--out", (folder.path / "out").string()});
+  EXPECT_TRUE(std::regex_search(
+      run.output, std::regex("the trajectory ends [0-9.]+ s after line stretch, [0-9.]+ m lower\n")))
+      << run.output;
+}
+
 TEST(PatternCommand, ListsTheCutOfEachPieceAndTheHems) {
   const TemporaryFolder folder("pattern");
   const Finished run =
