@@ -60,7 +60,7 @@ void print_stage(const StageLoads& s, const StageLoads* before, const LoadResult
       "\nstage from {:.2f} s: {:.3g} m/s on a path {:.3g} deg below the horizon, {:.4g} m above sea level, "
       "{:.4g} "
       "kg/m3, drag area {:.3g} to {:.3g} m2{}\n"
-      "  filling time {:.3g} s = {:.3g} D0 / speed{}{}, ballistic parameter {:.3g}, mass ratio {:.3g}\n",
+      "  filling time {:.3g} s = {:.3g} D0 / speed{}{}, ballistic parameter {:.3g}, mass ratio R_m {:.3g}\n",
       s.begin, s.speed, s.path_angle, s.height, s.density, s.drag_area_before, s.drag_area,
       before && s.drag_area_before > 1.0005 * before->drag_area
           ? " (the canopy of the stage before is still larger than in steady flow)"

@@ -70,6 +70,23 @@ TEST(RecoveryCommand, StatesTheReplacedMassTheLoosePackingAndTheSeparation) {
       << run.output;
 }
 
+int count_of(const std::string& part, const std::string& text) {
+  int count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+TEST(RecoveryCommand, AdvisesOnceOnTheHeavyPayloadOfSeveralParachutes) {
+  const TemporaryFolder folder("recovery");
+  const Finished run = ripstop_with(recovery(folder, {"--mass", "300"}));
+  EXPECT_EQ(run.code, 0) << run.output;
+  for (const char* text :
+       {"drogue: the payload is heavy for this canopy (mass ratio R_m = rho (C_D S)^1.5 / m = ",
+        "; main: the payload is heavy for this canopy (mass ratio R_m = "})
+    EXPECT_EQ(count_of(text, run.output), 1) << text << "\n" << run.output;
+  EXPECT_EQ(count_of("Compute the opening at the airspeed V", run.output), 1) << run.output;
+}
+
 TEST(RecoveryCommand, RefusesAUnitOfAnotherQuantityAndAnUnknownChoiceOfUnits) {
   const TemporaryFolder folder("recovery");
   const Finished wrong = ripstop_with(recovery(folder, {"--mass", "48.5 ft"}));

@@ -1,6 +1,7 @@
 #include "ripstop/run/descent/recovery.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -314,18 +315,13 @@ RecoveryStage stage_of(const RecoveryCanopy& canopy, std::size_t i, const std::v
   s.packed_volume = parachute_bill(canopy.resolved, {}, request.packing_density).packed_volume;
   if (request.bay_diameter)
     s.bay_length = s.packed_volume / (std::numbers::pi / 4 * *request.bay_diameter * *request.bay_diameter);
-  for (const std::string& text : strain_warnings(canopy.resolved, 0))
-    warnings.push_back(fmt::format("{}: {}", canopy.name, text));
-  for (const std::string& text : hardware_warnings(canopy.resolved))
-    warnings.push_back(fmt::format("{}: {}", canopy.name, text));
-  if (!load.design_load_caution.empty())
-    warnings.push_back(fmt::format("{}: {}", canopy.name, load.design_load_caution));
-  for (const std::string& text : margin_warnings(s.margins))
-    warnings.push_back(fmt::format("{}: {}", canopy.name, text));
-  for (const std::string& text :
-       outside_range(infinite_mass_model,
-                     {{"Mach number", s.speed.high / standard_air(flown.opening.height).sound_speed}}))
-    warnings.push_back(fmt::format("{}: {}", canopy.name, text));
+  const auto warn = [&](const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) warnings.push_back(fmt::format("{}: {}", canopy.name, text));
+  };
+  warn(strain_warnings(canopy.resolved, 0)), warn(hardware_warnings(canopy.resolved)),
+      warn(margin_warnings(s.margins));
+  warn(outside_range(infinite_mass_model,
+                     {{"Mach number", s.speed.high / standard_air(flown.opening.height).sound_speed}}));
   if (!flown.filled)
     warnings.push_back(fmt::format("{}: it opens too low: it is not filled after {:.3g} s, when {}",
                                    canopy.name, flown.duration,
@@ -382,8 +378,14 @@ RecoveryResult run_recovery(const Settings& main, const std::optional<Settings>&
                     rounded(all), rounded(r.total_mass)));
   r.apogee = request.apogee, r.ground = request.ground, r.wind = wind;
   r.apogee_wind = norm(wind_velocity(wind, request.apogee, std::numeric_limits<double>::infinity()));
-  for (std::size_t i = 0; i < canopies.size(); ++i)
+  std::vector<std::string> heavy;
+  for (std::size_t i = 0; i < canopies.size(); ++i) {
     r.stages.push_back(stage_of(canopies[i], i, flights, request, r.warnings));
+    const std::string& text = flights[0].stages[i].load.heavy_payload;
+    if (!text.empty()) heavy.push_back(canopies[i].name + ": " + text);
+  }
+  if (!heavy.empty())
+    r.warnings.push_back(fmt::format("{}. {}", fmt::join(heavy, "; "), heavy_payload_advice()));
   if (request.separation_speed && std::none_of(r.stages.begin(), r.stages.end(), [](const RecoveryStage& s) {
         return s.separation_load.has_value();
       }))

@@ -7,9 +7,17 @@
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/words.h"
+#include "ripstop/run/opening/filling.h"
 #include "ripstop/run/opening/load.h"
 
 namespace ripstop::inline run {
+namespace {
+
+/// Coupled openings of solid canopies of tight cloth have up to this many times the infinite-mass load where the payload
+/// hardly decelerates, and more than it below this mass ratio (docs/validation/inflation.md, Heavy payloads).
+constexpr double computed_over_handbook = 2.5, heavy_mass_ratio = 1;
+
+}  // namespace
 
 bool has_default_damping(const InflationSettings& inflation) {
   const InflationSettings usual;
@@ -36,6 +44,42 @@ std::vector<MethodLoad> handbook_methods(const Settings& resolved) {
   } catch (const Error&) {  // a drop for which no method has an answer: nothing to compare with
     return {};
   }
+}
+
+std::optional<FiniteMassRange> finite_mass_range(const std::vector<MethodLoad>& methods) {
+  std::optional<FiniteMassRange> range;
+  for (const MethodLoad& m : methods) {
+    if (!m.applies || m.method == infinite_mass_method) continue;
+    if (!range) range = {m.load, m.load};
+    range->lowest = std::min(range->lowest, m.load), range->highest = std::max(range->highest, m.load);
+  }
+  return range;
+}
+
+std::string heavy_payload(const Settings& resolved, const LoadResult& load) {
+  const bool solid = known_filling(resolved.parachute().canopy.family().type).ludtke_exponent > 2;
+  if (!solid) return {};
+  for (const StageLoads& stage : load.stages) {
+    const double computed = computed_over_handbook * stage.methods.front().load;
+    if (stage.mass_ratio >= heavy_mass_ratio || computed <= load.highest_design_load) continue;
+    // The drag area is that of the stage, the mass that of payload and parachute.
+    return fmt::format(
+        "the payload is heavy for {} (mass ratio R_m = rho (C_D S)^1.5 / m = {:.3g})",
+        load.stages.size() > 1 ? fmt::format("the stage from {:.2f} s", stage.begin) : "this canopy",
+        stage.mass_ratio);
+  }
+  return {};
+}
+
+std::string heavy_payload_advice() {
+  return fmt::format(
+      "Coupled openings of solid canopies at mass ratios below {:g} have up to {:g} times the infinite-mass "
+      "load of the handbook, because the canopy fills within two nominal diameters "
+      "(docs/validation/inflation.md). Compute the opening at the airspeed V at line stretch: ripstop "
+      "inflate "
+      "CASE --air coupled --set inflation.mass=payload --speed V --out RUN. Then use it: ripstop load CASE "
+      "--speed V --opening RUN. A measured load (--measured-load) also replaces the handbook",
+      heavy_mass_ratio, computed_over_handbook);
 }
 
 std::optional<std::string> handbook_disagreement(double computed, std::optional<double> distance,

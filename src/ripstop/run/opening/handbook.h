@@ -10,6 +10,8 @@
 
 namespace ripstop::inline run {
 
+struct LoadResult;
+
 /// Three standard deviations of the peaks of openings that differ only in mesh or folds: 5 % each for a disk-gap-band
 /// (docs/validation/inflation.md, Step and cells), less for a flat circular canopy.
 inline constexpr double opening_scatter = 0.15;
@@ -23,6 +25,19 @@ std::string limit_of_damping(const InflationSettings& inflation);
 /// All methods of run_load() for the payload, speed and density of the case. Empty where they cannot be computed (no
 /// payload, or a descent rate above the speed).
 std::vector<MethodLoad> handbook_methods(const Settings& resolved);
+
+/// The lowest and the highest load of the methods that apply and that compute the deceleration during filling [N].
+struct FiniteMassRange {
+  double lowest = 0, highest = 0;
+};
+/// Absent where no such method applies. The infinite-mass load is not among them: it has no filling distance.
+std::optional<FiniteMassRange> finite_mass_range(const std::vector<MethodLoad>& methods);
+
+/// Statement that a solid canopy has a heavy payload, with the mass ratio of the stage; empty where the highest design load
+/// is at least that of the coupled openings of such canopies.
+std::string heavy_payload(const Settings& resolved, const LoadResult& load);
+/// Load of the coupled openings of canopies with a heavy payload, and the remedy.
+std::string heavy_payload_advice();
 
 /// Warning if `computed` [N] is outside the range of the finite-mass methods of `methods` by more than
 /// opening_scatter; else nothing. `distance` is the computed path to the peak over D0, where it is known.

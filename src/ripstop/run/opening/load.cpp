@@ -291,33 +291,6 @@ void fly_record(const OpeningRecord& record, const LoadRequest& request, LoadRes
   compare_methods(stage);
 }
 
-/// Coupled openings of solid canopies of tight cloth have up to this many times the infinite-mass load where the payload
-/// hardly decelerates, and more than it below this mass ratio (docs/validation/inflation.md, Heavy payloads).
-constexpr double computed_over_handbook = 2.5, heavy_payload = 1;
-
-std::string heavy_payload_caution(const Settings& resolved, const LoadResult& r) {
-  const bool solid = known_filling(resolved.parachute().canopy.family().type).ludtke_exponent > 2;
-  if (!solid) return {};
-  for (const StageLoads& stage : r.stages) {
-    const double computed = computed_over_handbook * stage.methods.front().load;
-    if (stage.mass_ratio >= heavy_payload || computed <= r.highest_design_load) continue;
-    return fmt::format(
-        "the payload is heavy for {} (mass ratio of air and payload {:.3g}). Coupled openings of solid "
-        "canopies "
-        "at mass ratios below {:g} have up to {:g} times the infinite-mass load of the handbook, because the "
-        "canopy "
-        "fills within two nominal diameters (docs/validation/inflation.md). Compute the opening at the "
-        "airspeed V at "
-        "line stretch: ripstop inflate CASE --air coupled --set inflation.mass=payload --speed V --out RUN. "
-        "Then use "
-        "it: ripstop load CASE --speed V --opening RUN. A measured load (--measured-load) also replaces the "
-        "handbook",
-        r.stages.size() > 1 ? fmt::format("the stage from {:.2f} s", stage.begin) : "this canopy",
-        stage.mass_ratio, heavy_payload, computed_over_handbook);
-  }
-  return {};
-}
-
 std::string scatter_text() {
   return fmt::format("scatter of repeated openings {:.0f} %", 100 * opening_scatter);
 }
@@ -363,8 +336,11 @@ void choose_design_load(const Settings& resolved, const LoadRequest& request, co
   r.load_uncertainty = uncertainty.value, r.load_uncertainty_from = std::move(uncertainty.from);
   r.highest_design_load = (1 + r.load_uncertainty) * r.design_load;
   if (!r.design_method.empty() && r.design_method != computed_method && !request.opening_coefficient)
-    r.design_load_caution = heavy_payload_caution(resolved, r);
-  if (!r.design_load_caution.empty()) r.warnings.push_back(r.design_load_caution);
+    r.heavy_payload = heavy_payload(resolved, r);
+  if (!r.heavy_payload.empty()) {
+    r.design_load_caution = r.heavy_payload + ". " + heavy_payload_advice();
+    r.warnings.push_back(r.design_load_caution);
+  }
   if (request.measured_load) warn_of_small_measurement(r);
   const double mach = request.speed / standard_air(r.height).sound_speed;
   for (const std::string& text : outside_range(infinite_mass_model, {{"Mach number", mach}}))

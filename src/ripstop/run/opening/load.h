@@ -111,6 +111,7 @@ struct LoadResult {
   double design_load = 0;           // by the rule of docs/theory/opening-load.md, without its uncertainty [N]
   std::string design_load_from;     // measured, computed or infinite mass
   std::string design_load_caution;  // where a computed opening can have more; empty: none
+  std::string heavy_payload;        // its first sentence; not in result.json
   std::string design_method;        // of a stage, whose load this is; empty: measured
   double load_uncertainty = 0;      // of the design load, relative
   std::string load_uncertainty_from;
