@@ -81,9 +81,10 @@ void print_stage(const RecoveryStage& s, bool wind) {
   if (wind) print_row("drift", range_text(s.drift, "m"));
   print_row("packed", fmt::format("{}; mass {:.3g} kg", packed_text(s.mass, s.packed_volume), s.mass));
   if (s.bay_length)
-    print_row("length in the bay",
-              fmt::format("{:.3g} m at this density, {:.3g} m packed loosely", *s.bay_length,
-                          *s.bay_length * std::max(1.0, s.mass / (loosely_packed * s.packed_volume))));
+    print_row(
+        "length in the bay",
+        fmt::format("{} at this density, {} packed loosely", length_text(*s.bay_length),
+                    length_text(*s.bay_length * std::max(1.0, s.mass / (loosely_packed * s.packed_volume)))));
 }
 
 std::string wind_text(const RecoveryResult& r) {

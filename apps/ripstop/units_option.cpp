@@ -34,6 +34,10 @@ void print_plain(const std::string& text) {
   fmt::print("{}", wrapped(in_units(text), width));
 }
 
+std::string length_text(double length) {
+  return length < 0.1 ? fmt::format("{:.3g} mm", 1000 * length) : fmt::format("{:.3g} m", length);
+}
+
 void print_row(const char* name, const std::string& text) {
   print_text("  {:<26} {}\n", name, text);
 }

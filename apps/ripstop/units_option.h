@@ -26,6 +26,9 @@ void print_text(fmt::format_string<Args...> format, Args&&... args) {
   print_plain(fmt::format(format, std::forward<Args>(args)...));
 }
 
+/// A length of a part: in mm below 0.1 m, else in m; three digits [m].
+std::string length_text(double length);
+
 /// A row of a summary: a name and its text.
 void print_row(const char* name, const std::string& text);
 

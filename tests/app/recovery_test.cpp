@@ -70,6 +70,20 @@ TEST(RecoveryCommand, StatesTheReplacedMassTheLoosePackingAndTheSeparation) {
       << run.output;
 }
 
+TEST(RecoveryCommand, StatesAShortLengthInMillimetres) {
+  const TemporaryFolder folder("recovery");
+  std::vector<std::string> wide = recovery(folder, {"--mass", "22", "--bay-diameter", "0.5"});
+  const Finished run = ripstop_with(wide);
+  EXPECT_EQ(run.code, 0) << run.output;
+  EXPECT_TRUE(
+      std::regex_search(run.output, std::regex("length in the bay +[1-9][0-9.]* mm at this density, ")))
+      << run.output;
+  wide.insert(wide.end(), {"--units", "us"});
+  const Finished us = ripstop_with(wide);
+  EXPECT_TRUE(std::regex_search(us.output, std::regex("length in the bay +[0-9.]+ mm \\([0-9.]+ in\\) at")))
+      << us.output;
+}
+
 int count_of(const std::string& part, const std::string& text) {
   int count = 0;
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;

@@ -11,6 +11,7 @@ TEST(UsUnits, FollowEveryValueWithAUnit) {
   EXPECT_EQ(with_us_units("22 kg, 1.5 m2, 304.8 m"), "22 kg (48.5 lb), 1.5 m2 (16.1 ft2), 304.8 m (1000 ft)");
   EXPECT_EQ(with_us_units("75 J, 0.0254 m, 100 Pa"),
             "75 J (55.3 ft lbf), 0.0254 m (1 in), 100 Pa (0.0145 psi)");
+  EXPECT_EQ(with_us_units("10.8 mm, 50 to 100 mm"), "10.8 mm (0.425 in), 50 to 100 mm (1.97 to 3.94 in)");
 }
 
 TEST(UsUnits, AHeightOfZeroIsInFeet) {

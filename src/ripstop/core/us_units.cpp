@@ -22,8 +22,9 @@ struct UsUnit {
   double factor;  // SI per unit
 };
 constexpr double small_length = 1;  // below it lengths are in inches [m]
-constexpr std::array<UsUnit, 12> us_units{{
+constexpr std::array<UsUnit, 13> us_units{{
     {"m", "ft", foot},
+    {"mm", "in", 1e3 * inch},
     {"m/s", "ft/s", foot},
     {"m2", "ft2", foot* foot},
     {"m3", "in3", inch* inch* inch},
