@@ -13,9 +13,11 @@ void describe_start(Fields& fields, InflationSettings& inflation) {
       .absent(
           "a closed mouth: 4 to 10 % of the nominal diameter by type of canopy, or more where the folds need "
           "it");
-  fields.integer(
-      "folds", inflation.folds, from(0).up_to(1000),
-      "Number of outer folds around the canopy, equal to the number of inner folds; 0: one per line.");
+  fields.integer("folds", inflation.folds, from(0).up_to(1000),
+                 "Number of outer folds around the canopy, equal to the number of inner folds; 0: with a "
+                 "closed mouth (no initial_radius_m) the smallest multiple of the number of lines with which "
+                 "the mouth closes, for example 36 for 12 lines; with initial_radius_m one per line; 4 for a "
+                 "cross.");
   fields.number("slack_m", inflation.slack_m, from(0).up_to(1000),
                 "Slack: length of the lines beyond the distance from the confluence to the skirt.");
 }

@@ -134,8 +134,8 @@ void describe(Fields& fields, Design& design, const Families& types) {
       .number("nominal_area_m2", design.nominal_area_m2, above(0).up_to(10000),
               "Reference area S0 of the coefficients.")
       .absent(
-          "definition of the canopy family: cut cloth (disk-gap-band), else the whole design surface with "
-          "vent and slots");
+          "definition of the canopy family: area of the cloth (disk-gap-band, annular, cross), else of the "
+          "design surface with vent and slots");
   fields
       .integer("gores", design.gores, from(3).up_to(500),
                "Number of gores of equal width; for a cross 4, the number of its arms.")
