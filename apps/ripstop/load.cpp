@@ -186,10 +186,7 @@ void print_result(const LoadResult& r, const fs::path& folder, const std::option
         "  The design load is computed without a filling distance. Methods with a smaller load assume "
         "one.\n");
   print_text("  The load of an \"estimate\" is expected if the canopy fills as that method assumes.\n");
-  if (snatch)
-    print_margins(r.margins, {}, "the snatch load; tape or hem under the design load");
-  else
-    print_margins(r.margins, r.highest_design_load / r.design_load);
+  if (r.margins && r.highest_margins) print_margins(*r.margins, *r.highest_margins, snatch);
   print_row("required hardware", hardware_text(r.hardware));
   std::string caution;
   const StageLoads* before = nullptr;

@@ -29,34 +29,65 @@ void print_payload(const SteadyResult& r) {
                                    r.payload->speeds));
 }
 
-void print_margins(const std::optional<Margins>& margins, std::optional<double> highest,
-                   const std::string& under) {
+namespace {
+
+std::string used_text(const Margin& m) {
+  return m.used       ? fmt::format("{:.1f} %", 100 * *m.used)
+         : m.strength ? std::string("no load")
+                      : std::string("strength not known");
+}
+
+/// `under` names the load of the margins ("under the highest design load, "); empty: a row above does.
+void print_weakest(const Margins& margins, const std::string& under) {
+  if (margins.weakest.empty()) return;
+  const Margin& m = *weakest(margins);
+  const bool with_cloth = std::any_of(margins.members.begin(), margins.members.end(),
+                                      [](const Margin& each) { return each.member == "cloth"; });
+  print_row("weakest member",
+            fmt::format("{}{}: {} {} {} times safety factor {:.3g}, allowable load {} {} ({:.0f} % of the "
+                        "{}); margin of safety {}{}{}",
+                        under, m.member, m.load_from.value_or("load"), rounded(m.load), m.unit,
+                        *m.used * *m.strength * m.knock_down / m.load, rounded(*m.strength * m.knock_down),
+                        m.unit, 100 * m.knock_down, m.strength_from, margin_text(*m.margin),
+                        *m.margin < 0 ? ": ALLOWABLE LOAD EXCEEDED" : "",
+                        with_cloth ? "" : "; the cloth is not checked"));
+}
+
+}  // namespace
+
+void print_margins(const std::optional<Margins>& margins) {
   if (!margins) return;
-  const auto under_highest = [&](const Margin& m) {
-    return highest ? fmt::format(" ({:.1f} %)", 100 * *highest * *m.used) : "";
-  };
   std::string text;
   for (const Margin& m : weakest_of_kinds(*margins))
-    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", m.member,
-                        m.used       ? fmt::format("{:.1f} %", 100 * *m.used) + under_highest(m)
-                        : m.strength ? std::string("no load")
-                                     : std::string("strength not known"));
-  print_row("utilisation", text + (highest         ? "; under the design load (under the highest design load)"
-                                   : under.empty() ? ""
-                                                   : "; under " + under));
-  if (!margins->weakest.empty()) {
-    const Margin& m = *weakest(*margins);
-    const bool with_cloth = std::any_of(margins->members.begin(), margins->members.end(),
-                                        [](const Margin& each) { return each.member == "cloth"; });
-    print_row("weakest member",
-              fmt::format("{}{}: {} {} {} times safety factor {:.3g}, allowable load {} {} ({:.0f} % of the "
-                          "{}); margin of safety {}{}{}",
-                          highest ? "under the design load, " : "", m.member, m.load_from.value_or("load"),
-                          rounded(m.load), m.unit, *m.used * *m.strength * m.knock_down / m.load,
-                          rounded(*m.strength * m.knock_down), m.unit, 100 * m.knock_down, m.strength_from,
-                          margin_text(*m.margin), *m.margin < 0 ? ": ALLOWABLE LOAD EXCEEDED" : "",
-                          with_cloth ? "" : "; the cloth is not checked"));
+    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", m.member, used_text(m));
+  print_row("utilisation", text);
+  print_weakest(*margins, "");
+}
+
+void print_margins(const Margins& design, const Margins& highest, bool snatch) {
+  std::string text;
+  for (const Margin& m : design.members) {
+    const auto with_highest = std::find_if(highest.members.begin(), highest.members.end(),
+                                           [&](const Margin& each) { return each.member == m.member; });
+    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", m.member, used_text(m));
+    if (m.used && with_highest != highest.members.end() && with_highest->used)
+      text += fmt::format(" ({})", used_text(*with_highest));
   }
+  print_row("utilisation",
+            text + "; under the design load (under the highest design load)" +
+                (snatch ? "; of lines, riser and hardware at least under the snatch load" : ""));
+  print_weakest(highest,
+                fmt::format("under the highest design load{}, ", snatch ? " or the snatch load" : ""));
+}
+
+std::string finite_mass_text(const std::optional<double>& lowest, const std::optional<double>& highest,
+                             double design_load, const std::string& fills) {
+  if (!lowest || !highest) return "no finite-mass method of ripstop load applies; use the design load";
+  const std::string range = rounded(*lowest) == rounded(*highest)
+                                ? rounded(*lowest)
+                                : fmt::format("{} to {}", rounded(*lowest), rounded(*highest));
+  return fmt::format("{} N if the canopy {} (finite-mass methods of ripstop load); {}", range, fills,
+                     *highest < design_load ? "not for design" : "the largest is the design load");
 }
 
 std::string hardware_text(const HardwareNeed& need) {

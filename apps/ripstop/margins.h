@@ -14,10 +14,14 @@ namespace ripstop::cli {
 /// `max_line_tension` in N.
 void print_stresses(double max_line_tension, const StressPeak& stress);
 void print_payload(const SteadyResult& result);
-/// With `highest`, the ratio of the highest design load to the load of the margins, the utilisation under both.
-/// Otherwise `under` names the load ("the snatch load"); empty: a row above does.
-void print_margins(const std::optional<Margins>& margins, std::optional<double> highest = {},
-                   const std::string& under = "");
+/// The row above names the load of the margins.
+void print_margins(const std::optional<Margins>& margins);
+/// The utilisation under the design load and under the highest one, and the weakest member under the highest one.
+/// Where a snatch load exceeds the design load (`snatch`), lines, riser and hardware carry it.
+void print_margins(const Margins& design, const Margins& highest, bool snatch = false);
+/// Range of the finite-mass methods [N], for a canopy that `fills` as they assume ("fills in 1 s").
+std::string finite_mass_text(const std::optional<double>& lowest, const std::optional<double>& highest,
+                             double design_load, const std::string& fills);
 /// A line where --mass replaces another payload.mass_kg of the case.
 void print_replaced_mass(const std::optional<double>& given, const Settings& resolved);
 /// The load of a shock cord that no opening load contains, with its formula.

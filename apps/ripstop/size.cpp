@@ -82,7 +82,7 @@ void print_result(const SizeResult& r, const fs::path& file, const fs::path& pag
           "not for design",
           r.opening_load_low, r.opening_load, r.opening.front().filling_constant));
   if (!r.opening.front().caution.empty()) row("", r.opening.front().caution);
-  print_margins(r.margins, r.highest_design_load / r.design_load);
+  if (r.margins && r.highest_margins) print_margins(*r.margins, *r.highest_margins);
   for (const SizeCheck& c : r.checks)
     row(c.basis == "descent" ? "flight" : "run",
         fmt::format("diameter {:.3f} m, rate of descent {:.3f}{} m/s, C_D {:.3f} ({})", c.nominal_diameter,

@@ -175,6 +175,10 @@ Load.smallest_margin_of_safety: margin of safety of the weakest member under the
 Load.smallest_margin_member: weakest member under the highest design load, or a larger snatch load
 Size.smallest_margin_of_safety: margin of safety of the weakest member under the highest design load
 Size.smallest_margin_member: weakest member under the highest design load
+Size.margins: margins of safety under the design load
+Size.margins_under_highest_design_load: margins of safety under the highest design load
+Load.margins: margins of safety under the design load; for lines, riser and hardware under the snatch load if it is larger
+Load.margins_under_highest_design_load: margins of safety under the highest design load; for lines, riser and hardware under the snatch load if it is larger
 Size.opening_load_n: largest opening load of the applicable methods
 Size.opening_load_low_n: smallest opening load of the applicable methods
 Size.checks: runs of the verification, in order

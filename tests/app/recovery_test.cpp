@@ -157,6 +157,37 @@ TEST(LoadCommand, StatesTheHeightThatIsLostUntilTheSteadyDescent) {
       << run.output;
 }
 
+/// The text after the name of a row.
+std::string row_of(const std::string& name, const std::string& output) {
+  std::smatch found;
+  return std::regex_search(output, found, std::regex("\n  " + name + " +([^\n]*)")) ? found[1].str() : "";
+}
+
+/// "+4.02" and the member of "margin of safety +4.02, tape" or "tape: load ...; margin of safety +4.02; ...".
+std::string margin_in(const std::string& text) {
+  std::smatch found;
+  return std::regex_search(text, found, std::regex("margin of safety ([+-][0-9.]+)")) ? found[1].str() : "";
+}
+
+// One part has one margin in the summary, that under the highest design load.
+TEST(LoadAndSizeCommands, StateOneMarginOfTheWeakestMember) {
+  const TemporaryFolder folder("margin");
+  const std::string file = (folder.path / "my.toml").string();
+  const Finished size = ripstop_with({"size", "--mass", "2.4", "--descent-rate", "5", "--out", file});
+  ASSERT_EQ(size.code, 0) << size.output;
+  const std::string highest = row_of("highest design load", size.output),
+                    weakest = row_of("weakest member", size.output);
+  EXPECT_NE(margin_in(highest), "") << size.output;
+  EXPECT_EQ(margin_in(weakest), margin_in(highest)) << size.output;
+  EXPECT_EQ(weakest.find("under the highest design load, "), 0u) << size.output;
+  const Finished load =
+      ripstop_with({"load", file, "--speed", "20", "--out", (folder.path / "out").string()});
+  ASSERT_EQ(load.code, 0) << load.output;
+  const std::string selected = load.output.substr(load.output.find("Select lines"));
+  EXPECT_EQ(margin_in(row_of("weakest member", load.output)), margin_in(selected)) << load.output;
+  EXPECT_EQ(margin_in(selected), margin_in(highest)) << load.output;
+}
+
 TEST(PatternCommand, ListsTheCutOfEachPieceAndTheHems) {
   const TemporaryFolder folder("pattern");
   const Finished run =

@@ -135,6 +135,9 @@ TEST(DesignLoad, LinesThatDoNotHoldItAreAWarningInWords) {
   ASSERT_TRUE(r.margins);
   EXPECT_EQ(r.margins->weakest, "line");
   EXPECT_TRUE(mentions(r.warnings, "line exceeds its allowable load"));
+  // The margin of the warning is the one that the result states.
+  EXPECT_TRUE(mentions(r.warnings, "(margin of safety " + margin_text(*r.smallest_margin) + ")"));
+  EXPECT_TRUE(mentions(r.warnings, ". The load is that under the highest design load"));
 }
 
 // A steady run of the example has 1.43 times the mean tension in the lines at the corners of a cross.

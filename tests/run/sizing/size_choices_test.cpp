@@ -128,6 +128,9 @@ TEST(SizeChoices, AMarginThatTheUncertaintyOfTheLoadUsesUpIsWarnedOf) {
   EXPECT_EQ(weak->member, "line");
   EXPECT_GT(*weak->margin, 0);
   EXPECT_NEAR(*r.smallest_margin, (1 + *weak->margin) / (1 + u) - 1, 1e-9);
+  ASSERT_TRUE(r.highest_margins);
+  EXPECT_EQ(*weakest(*r.highest_margins)->margin, *r.smallest_margin);
+  EXPECT_EQ(r.highest_margins->weakest, r.smallest_margin_member);
   EXPECT_LT(*r.smallest_margin, 0);
   ASSERT_EQ(r.warnings.size(), 1u);
   EXPECT_NE(r.warnings[0].find("uncertainty of 18 %, the line exceeds its allowable load"), std::string::npos)

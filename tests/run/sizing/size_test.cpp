@@ -203,12 +203,20 @@ TEST(Size, ItsReportHasItsNumbersAndEveryMethodsLoad) {
   const ReportRun& page = report.runs.front();
   EXPECT_EQ(number_of(page, "nominal_diameter_m"), r.nominal_diameter);
   for (const std::string& key : page.headline) {
-    if (key != "weakest_member" && key != "drag_coefficient_basis") {
+    if (key != "smallest_margin_member" && key != "drag_coefficient_basis") {
       EXPECT_FALSE(std::isnan(number_of(page, key))) << key;
     }
   }
   for (const char* key : {"nominal_diameter_m", "parachute_mass_kg", "design_load_n"})
     EXPECT_EQ(std::count(page.headline.begin(), page.headline.end(), key), 1) << key;
+  // One margin of the weakest member: that under the highest design load.
+  EXPECT_EQ(number_of(page, "smallest_margin_of_safety"), *r.smallest_margin);
+  EXPECT_TRUE(std::isnan(number_of(page, "margin_of_safety")));
+  for (const char* title : {"Margins under the design load", "Margins under the highest design load"})
+    EXPECT_EQ(std::count_if(page.tables.begin(), page.tables.end(),
+                            [&](const ReportTable& table) { return table.title == title; }),
+              1)
+        << title;
   const auto methods = std::find_if(page.tables.begin(), page.tables.end(), [](const ReportTable& table) {
     return table.id.find("methods") != std::string::npos;
   });

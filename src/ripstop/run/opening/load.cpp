@@ -353,11 +353,16 @@ void take_required_load(const Settings& resolved, LoadResult& r) {
   r.required_load = std::max(r.highest_design_load, largest_snatch);
   r.margins = load_margins(resolved, r.design_load, largest_snatch);
   r.hardware = hardware_need(r.required_load, resolved.margins());
-  for (const std::string& text : margin_warnings(r.margins)) r.warnings.push_back(text);
-  const Margins highest = load_margins(resolved, r.highest_design_load, largest_snatch);
-  if (const Margin* least = weakest(highest))
+  r.highest_margins = load_margins(resolved, r.highest_design_load, largest_snatch);
+  if (const Margin* least = weakest(*r.highest_margins))
     r.smallest_margin = least->margin, r.smallest_margin_member = least->member;
-  if (const Margin* usual = weakest(*r.margins); usual && *usual->margin >= 0 && *r.smallest_margin < 0)
+  const Margin* usual = weakest(*r.margins);
+  if (usual && *usual->margin < 0)
+    for (const std::string& text : margin_warnings(r.highest_margins))
+      r.warnings.push_back(text + (largest_snatch > r.highest_design_load
+                                       ? ". The load is that under the highest design load or the snatch load"
+                                       : ". The load is that under the highest design load"));
+  else if (usual && *r.smallest_margin < 0)
     r.warnings.push_back(fmt::format(
         "under the highest design load of {} N, which contains the uncertainty of {:.0f} %, the "
         "{} exceeds its allowable load (margin of safety {}): the fastest safe deployment (ripstop "

@@ -123,6 +123,7 @@ struct LoadResult {
   double line_load_factor = 1;  // largest line load over an equal share, of the family
   // Of tape or hem under the design load; of the others under this or a larger snatch load.
   std::optional<Margins> margins;
+  std::optional<Margins> highest_margins;  // the same with the highest design load
   double peak_load = 0, peak_time = 0;     // of the trajectory [N], [s]
   std::optional<double> record_peak_load;  // of the trajectory with a computed opening's drag area [N]
   std::string
@@ -170,6 +171,7 @@ void each_member(T& r, Visit&& visit) {
   visit("smallest_margin_member", r.smallest_margin_member);
   visit("line_load_factor", r.line_load_factor);
   visit("margins", r.margins);
+  visit("margins_under_highest_design_load", r.highest_margins);
   visit("peak_load_n", r.peak_load);
   visit("peak_time_s", r.peak_time);
   visit("record_peak_load_n", r.record_peak_load);

@@ -149,7 +149,7 @@ void find_opening(const SizeRequest& request, SizeResult& r) {
   r.highest_design_load = load.highest_design_load;
   r.smallest_margin = load.smallest_margin, r.smallest_margin_member = std::move(load.smallest_margin_member);
   r.line_load_factor = load.line_load_factor;
-  r.margins = std::move(load.margins);
+  r.margins = std::move(load.margins), r.highest_margins = std::move(load.highest_margins);
   r.load_warnings = std::move(load.warnings);
   r.opening = std::move(load.stages), r.flight = std::move(load.flight);
 }

@@ -111,10 +111,11 @@ struct SizeResult {
   double highest_design_load = 0;         // lines, riser, and tape or hem are chosen for it [N]
   std::optional<double> smallest_margin;  // of safety, of the weakest member under the highest design load
   std::string smallest_margin_member;
-  double line_load_factor = 1;     // largest line load over an equal share
-  std::optional<Margins> margins;  // of lines and riser under the design load
-  double line_used = 0;            // utilisation of the weakest line under the highest design load
-  double tape_used = 0;            // the same of the tape, or of the hem in its place
+  double line_load_factor = 1;             // largest line load over an equal share
+  std::optional<Margins> margins;          // of tape or hem, lines and riser under the design load
+  std::optional<Margins> highest_margins;  // the same under the highest design load
+  double line_used = 0;                    // utilisation of the weakest line under the highest design load
+  double tape_used = 0;                    // the same of the tape, or of the hem in its place
   std::vector<SizeCheck> checks;
   std::vector<StageLoads> opening;                   // by every method
   std::vector<FlightRow> flight;                     // of that opening; not in result.json
@@ -167,6 +168,7 @@ void each_member(T& r, Visit&& visit) {
   visit("smallest_margin_member", r.smallest_margin_member);
   visit("line_load_factor", r.line_load_factor);
   visit("margins", r.margins);
+  visit("margins_under_highest_design_load", r.highest_margins);
   visit("line_used", r.line_used);
   visit("tape_used", r.tape_used);
   visit("checks", r.checks);

@@ -28,8 +28,14 @@ ReportRun sizing(const SizeResult& r) {
   run.kind = "size";
   run.name = r.family;
   run.title = r.given.title;
-  run.headline = {"nominal_diameter_m", "drag_coefficient", "drag_coefficient_basis", "parachute_mass_kg",
-                  "packed_volume_m3",   "design_load_n",    "weakest_member",         "margin_of_safety"};
+  run.headline = {"nominal_diameter_m",    "drag_coefficient",       "drag_coefficient_basis",
+                  "parachute_mass_kg",     "packed_volume_m3",       "design_load_n",
+                  "highest_design_load_n", "smallest_margin_member", "smallest_margin_of_safety"};
+  for (ReportTable& table : run.tables)
+    if (table.id == "margins members")
+      table.title = "Margins under the design load";
+    else if (table.id == "margins_under_highest_design_load members")
+      table.title = "Margins under the highest design load";
   run.tables.push_back(bill_table(resolve(r.given)));
   run.warnings = r.warnings;
   run.case_file = r.case_text;

@@ -268,7 +268,8 @@ class Design {
         const design = method.method === load.design_method;
         return [design ? `${method.method} (design load)` : method.method, method.load_n, "N", !method.applies && !design];
       }),
-      margins: [["design load", load.design_load_n, "N"], ["trajectory peak", load.peak_load_n, "N"], ...(load.margins?.members ?? []).map((one) => [`margin of safety, ${one.member}`, one.margin_of_safety])],
+      margins: [["design load", load.design_load_n, "N"], ["highest design load", load.highest_design_load_n, "N"], ["trajectory peak", load.peak_load_n, "N"],
+        ...(load.margins_under_highest_design_load?.members ?? []).map((one) => [`margin of safety under the highest design load, ${one.member}`, one.margin_of_safety])],
     };
   }
 
