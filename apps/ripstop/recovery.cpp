@@ -51,10 +51,9 @@ void print_stage(const RecoveryStage& s, bool wind) {
       fmt::format("{:.2f} s after apogee, {} m above the ground, at {}, path {} deg below the "
                   "horizon, {:.4g} kg/m3 (standard atmosphere)",
                   s.time, rounded(s.height), range_text(s.speed, "m/s"), rounded(s.path_angle), s.density));
-  print_row(
-      "opening load",
-      fmt::format("{} to {} N by the applicable methods, if the canopy fills in {:.3g} s; not for design",
-                  rounded(s.lowest_load), rounded(s.highest_load), s.filling_time));
+  print_row("opening load",
+            finite_mass_text(s.lowest_finite_mass_load, s.highest_finite_mass_load, s.design_load,
+                             fmt::format("fills in {:.3g} s", s.filling_time)));
   print_row(
       "design load",
       fmt::format("{}: {}", range_text({s.design_load, s.lowest_design_load, s.highest_design_load}, "N"),

@@ -77,10 +77,8 @@ void print_result(const SizeResult& r, const fs::path& file, const fs::path& pag
                     r.highest_design_load, 100 * r.load_uncertainty, r.load_uncertainty_from,
                     margin_text(*r.smallest_margin), r.smallest_margin_member));
   row("opening load",
-      fmt::format(
-          "{:.0f} to {:.0f} N if the canopy fills over {:.3g} D0 (applicable methods of ripstop load); "
-          "not for design",
-          r.opening_load_low, r.opening_load, r.opening.front().filling_constant));
+      finite_mass_text(r.lowest_finite_mass_load, r.highest_finite_mass_load, r.design_load,
+                       fmt::format("fills over {:.3g} D0", r.opening.front().filling_constant)));
   if (!r.opening.front().caution.empty()) row("", r.opening.front().caution);
   if (r.margins && r.highest_margins) print_margins(*r.margins, *r.highest_margins);
   for (const SizeCheck& c : r.checks)

@@ -116,6 +116,8 @@ RecoveryStage.height_m: height of the opening above the ground
 RecoveryStage.speed_m_s: airspeed at the opening
 RecoveryStage.lowest_load_n: smallest opening load of the applicable methods
 RecoveryStage.highest_load_n: largest opening load of the applicable methods
+RecoveryStage.lowest_finite_mass_load_n: smallest opening load of the applicable methods without the infinite-mass load; None: there is none
+RecoveryStage.highest_finite_mass_load_n: largest opening load of the applicable methods without the infinite-mass load; None: there is none
 RecoveryStage.lowest_drag_coefficient: lower end of the range of the drag coefficient in descent on S0
 RecoveryStage.highest_drag_coefficient: upper end of the range of the drag coefficient in descent on S0
 RecoveryStage.drag_coefficient_range_from: source of this range
@@ -181,6 +183,8 @@ Load.margins: margins of safety under the design load; for lines, riser and hard
 Load.margins_under_highest_design_load: margins of safety under the highest design load; for lines, riser and hardware under the snatch load if it is larger
 Size.opening_load_n: largest opening load of the applicable methods
 Size.opening_load_low_n: smallest opening load of the applicable methods
+Size.lowest_finite_mass_load_n: smallest opening load of the applicable methods without the infinite-mass load; None: there is none
+Size.highest_finite_mass_load_n: largest opening load of the applicable methods without the infinite-mass load; None: there is none
 Size.checks: runs of the verification, in order
 Size.opening: opening loads by all methods
 SizeCheck.descent_rate_m_s: computed rate of descent

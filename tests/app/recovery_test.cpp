@@ -188,6 +188,25 @@ TEST(LoadAndSizeCommands, StateOneMarginOfTheWeakestMember) {
   EXPECT_EQ(margin_in(selected), margin_in(highest)) << load.output;
 }
 
+// The infinite-mass load has no filling distance, so that it is not in a range for one.
+TEST(LoadAndSizeCommands, StateTheRangeOfTheFiniteMassMethodsBelowTheDesignLoad) {
+  const TemporaryFolder folder("range");
+  // A drogue for which the infinite-mass method applies too.
+  const Finished size =
+      ripstop_with({"size", "--mass", "22", "--descent-rate", "25", "--height", "1500", "--deployment-speed",
+                    "30", "--out", (folder.path / "my.toml").string()});
+  ASSERT_EQ(size.code, 0) << size.output;
+  std::smatch design, range;
+  const std::string load = row_of("DESIGN LOAD", size.output), opening = row_of("opening load", size.output);
+  ASSERT_TRUE(std::regex_search(load, design, std::regex("^([0-9.]+) N"))) << size.output;
+  ASSERT_TRUE(
+      std::regex_search(opening, range, std::regex("^([0-9.]+) to ([0-9.]+) N if the canopy fills over")))
+      << size.output;
+  EXPECT_LT(std::stod(range[2]), std::stod(design[1])) << size.output;
+  EXPECT_NE(opening.find("(finite-mass methods of ripstop load); not for design"), std::string::npos)
+      << opening;
+}
+
 TEST(PatternCommand, ListsTheCutOfEachPieceAndTheHems) {
   const TemporaryFolder folder("pattern");
   const Finished run =

@@ -216,6 +216,21 @@ TEST(DesignLoad, WithAHeavyPayloadOfASolidCanopyIsWarnedOf) {
   EXPECT_TRUE(mentions(run_fastest(solid, heavy, 0).warnings, "the payload is heavy for this canopy"));
 }
 
+TEST(DesignLoad, TheRangeOfTheFiniteMassMethodsOmitsInfiniteMassAndMethodsThatDoNotApply) {
+  std::vector<MethodLoad> methods;
+  methods = {{infinite_mass_method, 617, 0, true, ""}};
+  EXPECT_FALSE(finite_mass_range(methods));
+  methods.push_back({"Pflanz", 700, 0, false, ""});
+  EXPECT_FALSE(finite_mass_range(methods));
+  methods.push_back({"Ludtke", 500, 0, true, ""});
+  methods.push_back({"trajectory", 485, 0, true, ""});
+  methods.push_back({"momentum-impulse", 520, 0, true, ""});
+  const auto range = finite_mass_range(methods);
+  ASSERT_TRUE(range);
+  EXPECT_EQ(range->lowest, 485);
+  EXPECT_EQ(range->highest, 520);
+}
+
 TEST(DesignLoad, AMeasuredLoadBelowEveryEstimateIsWarnedOf) {
   const Settings canopy = resolve(sized_canopy(1.76));
   LoadRequest asked = drop();

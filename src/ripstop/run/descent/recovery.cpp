@@ -287,6 +287,8 @@ RecoveryStage stage_of(const RecoveryCanopy& canopy, std::size_t i, const std::v
   s.speed = ranged(flights, [&](const Flown& f) { return f.stages[i].opening.speed; });
   s.filling_time = load.stages.front().filling_time;
   s.lowest_load = load.stages.front().lowest, s.highest_load = load.stages.front().highest;
+  if (const auto range = finite_mass_range(load.stages.front().methods))
+    s.lowest_finite_mass_load = range->lowest, s.highest_finite_mass_load = range->highest;
   s.design_load = load.design_load, s.design_load_from = load.design_load_from;
   if (flown.peak_force > s.design_load)
     s.design_load = flown.peak_force, s.design_load_from = "largest force of the trajectory";

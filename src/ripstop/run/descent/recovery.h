@@ -55,7 +55,9 @@ struct RecoveryStage {
   double density = 0;       // there, of the standard atmosphere [kg/m3]
   Ranged speed;             // through the air at the opening [m/s]
   double filling_time = 0;  // [s]
-  double lowest_load = 0, highest_load = 0;                // of the methods that apply [N]
+  double lowest_load = 0, highest_load = 0;  // of the methods that apply [N]
+  std::optional<double> lowest_finite_mass_load,
+      highest_finite_mass_load;                            // without the infinite-mass load [N]
   double design_load = 0;                                  // [N]
   double lowest_design_load = 0, highest_design_load = 0;  // with the ranges of drag, speed and scatter [N]
   double load_uncertainty = 0;                             // of its upper end at one speed, relative
@@ -92,6 +94,8 @@ void each_member(T& s, Visit&& visit) {
   visit("filling_time_s", s.filling_time);
   visit("lowest_load_n", s.lowest_load);
   visit("highest_load_n", s.highest_load);
+  visit("lowest_finite_mass_load_n", s.lowest_finite_mass_load);
+  visit("highest_finite_mass_load_n", s.highest_finite_mass_load);
   visit("design_load_n", s.design_load);
   visit("lowest_design_load_n", s.lowest_design_load);
   visit("highest_design_load_n", s.highest_design_load);

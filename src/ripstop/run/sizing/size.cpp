@@ -19,6 +19,7 @@
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/validity.h"
 #include "ripstop/run/json.h"
+#include "ripstop/run/opening/handbook.h"
 #include "ripstop/run/sizing/line_choice.h"
 #include "ripstop/run/sizing/size_case.h"
 #include "ripstop/run/used_run.h"
@@ -140,6 +141,9 @@ void find_opening(const SizeRequest& request, SizeResult& r) {
   asked.descent = false;  // only the opening is used
   LoadResult load = run_load(resolve(r.given), asked);
   r.opening_load_low = load.stages.front().lowest, r.opening_load = load.stages.front().highest;
+  r.lowest_finite_mass_load.reset(), r.highest_finite_mass_load.reset();
+  if (const auto range = finite_mass_range(load.stages.front().methods))
+    r.lowest_finite_mass_load = range->lowest, r.highest_finite_mass_load = range->highest;
   r.air_source = std::move(load.air_source);
   r.design_load = load.design_load, r.design_load_from = std::move(load.design_load_from);
   r.load_uncertainty = load.load_uncertainty;

@@ -104,7 +104,9 @@ struct SizeResult {
   double packed_volume = 0;                                                 // [m3]
   double deployment_speed = 0;                                              // [m/s]
   double opening_load = 0, opening_load_low = 0;  // range of the methods that apply [N]
-  double design_load = 0;                         // as of run_load() [N]
+  std::optional<double> lowest_finite_mass_load,
+      highest_finite_mass_load;  // without the infinite-mass load [N]
+  double design_load = 0;        // as of run_load() [N]
   std::string design_load_from;
   double load_uncertainty = 0;  // of it, relative
   std::string load_uncertainty_from;
@@ -159,6 +161,8 @@ void each_member(T& r, Visit&& visit) {
   visit("deployment_speed_m_s", r.deployment_speed);
   visit("opening_load_n", r.opening_load);
   visit("opening_load_low_n", r.opening_load_low);
+  visit("lowest_finite_mass_load_n", r.lowest_finite_mass_load);
+  visit("highest_finite_mass_load_n", r.highest_finite_mass_load);
   visit("design_load_n", r.design_load);
   visit("design_load_from", r.design_load_from);
   visit("load_uncertainty", r.load_uncertainty);
