@@ -106,7 +106,7 @@ class Together {
     const double stable = share * stability_limit(*cloth_, state_).stable_step;
     const int steps = std::max(least, static_cast<int>(std::ceil(length / stable)));
     const ClothMotion motion =
-        predict_motion(state_, *cloth_, air_.last_load(memory_), length, steps, team_, step_memory_);
+        predict_motion(state_, *cloth_, air_.last_load({}, memory_), length, steps, team_, step_memory_);
     air_.step(x, motion, length, {}, memory_);
     double residual_traction = 0;
     loads = air_.transfer(x, {}, memory_, residual_traction);

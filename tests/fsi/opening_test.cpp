@@ -325,11 +325,11 @@ TEST(Inflation, AFreeSheetReachesItsTerminalSpeed) {
   Mesh sheet;
   Patch patch;
   patch.rows = patch.columns = 9;
-  const double h = 0.01, areal_mass = 0.0407;
+  const double h = 0.01, mass_per_area = 0.0407;
   for (int i = 0; i < 81; ++i) {
     sheet.start.push_back({h * (i % 9), h * (i / 9), 0});
     const int edges = (i % 9 == 0 || i % 9 == 8) + (i / 9 == 0 || i / 9 == 8);
-    sheet.mass.push_back(areal_mass * h * h * std::pow(0.5, edges));
+    sheet.mass.push_back(mass_per_area * h * h * std::pow(0.5, edges));
   }
   for (int d = 0; d < direction_count; ++d) {
     patch.law[d] = {{1000}, 1};
@@ -343,8 +343,8 @@ TEST(Inflation, AFreeSheetReachesItsTerminalSpeed) {
   sheet.patches.push_back(patch);
   const double dp = 500, t = 5e-3, dt = 1e-6;
   ThreadTeam team(1);
-  const auto speed_with = [&](double linear, double quadratic) {
-    const ClothPtr cloth = make_cloth(sheet, {false, linear, quadratic});
+  const auto speed_with = [&](double absolute, double quadratic) {
+    const ClothPtr cloth = make_cloth(sheet, {false, absolute, quadratic});
     ClothState state = start_state(*cloth);
     step(state, *cloth, {std::vector<double>(72, dp), {}}, dt, static_cast<int>(t / dt + 0.5), team);
     return velocities(state, *cloth)[40].z;

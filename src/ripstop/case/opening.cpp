@@ -36,6 +36,20 @@ double pressure_of(const Settings& opening, const LoadSource& source, int thread
       .pressure;
 }
 
+/// How the canopy leaves its container after `start`.
+ContainerPath container_path(const Deployment& deployment, const DeploymentPhase& start,
+                             double canopy_length) {
+  const double end = deployment.phase(canopy_out)->time;
+  ContainerPath path{{0}, {0}};
+  for (const DeploymentRow& row : deployment.rows) {
+    if (!(row.time > start.time) || !(row.time < end)) continue;
+    path.time.push_back(row.time - start.time);
+    path.share.push_back(row.emerged / canopy_length);
+  }
+  path.time.push_back(end - start.time), path.share.push_back(1);
+  return path;
+}
+
 /// The state at which the canopy begins to leave its bag; canopy first, at which the lines come taut.
 void start_from(const Deployment& deployment, const Settings& opening, InflationProblem& problem) {
   if (deployment.stopped)
@@ -48,6 +62,7 @@ void start_from(const Deployment& deployment, const Settings& opening, Inflation
   const DeploymentPhase& start = *deployment.phase(packed.lines_first ? canopy_leaves : lines_stretch);
   problem.air->flow.air.velocity =
       (start.payload_speed / problem.air->flow.air.speed()) * problem.air->flow.air.velocity;
+  if (packed.lines_first) problem.air->container = container_path(deployment, start, packed.canopy_length);
 }
 
 /// Payload::density_ratio in the standard atmosphere, from the height that the case gives.

@@ -34,6 +34,7 @@ struct ClothOptions {
 struct Loads {
   std::vector<double> cell_pressure;
   std::vector<Vec3> node_force;  // empty, or one a node [N]
+  std::vector<int> guided = {};  // nodes that explicit steps move along the z axis only
 };
 
 /// The compiled, immutable cloth: kernel layout, ties, masses. Shared by every state that is stepped over it.

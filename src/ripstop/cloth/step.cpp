@@ -85,6 +85,7 @@ class ExplicitStep {
   void add_irregular_springs(int rank);
   void damp_irregular_nodes(int rank);
   void integrate_row(int row, const double* f);
+  void guide_row(int row);
   void integrate_irregular(int begin, int end);
 
   ClothState& state_;
@@ -98,6 +99,8 @@ class ExplicitStep {
   std::vector<double> irregular_inverse_mass_;  // 0: does not move
   Contact* contact_;                            // may be null
   int steps_per_kick_ = 0;
+  std::vector<int> guided_;             // slots of regular nodes that move along z only, in order
+  std::vector<char> irregular_guided_;  // whether irregular nodes do
   std::optional<EnergyRecord> record_;
 };
 
@@ -116,10 +119,16 @@ ExplicitStep::ExplicitStep(ClothState& state, const Cloth& cloth, const Loads& l
     return cloth.is_fixed[node] || !(cloth.total_mass[node] > 0) ? 0.0 : 1 / cloth.total_mass[node];
   };
   for (int node = 0; node < cloth.mesh.node_count(); ++node) inverse_mass_[cloth.slot[node]] = inverse(node);
+  std::vector<char> is_guided(cloth.mesh.node_count(), 0);
+  for (const int node : loads.guided) is_guided[node] = 1;
   for (const Cloth::IrregularNode& irregular : cloth.irregular) {
     irregular_inverse_mass_.push_back(inverse(irregular.node));
+    irregular_guided_.push_back(is_guided[irregular.node]);
     inverse_mass_[irregular.slot] = 0;
   }
+  for (const int node : loads.guided)
+    if (inverse_mass_[cloth.slot[node]] > 0) guided_.push_back(cloth.slot[node]);
+  std::sort(guided_.begin(), guided_.end());
   if (damped_) {
     area_.assign(cloth.slots, 0.0);
     for (int node = 0; node < cloth.mesh.node_count(); ++node)
@@ -175,13 +184,26 @@ void ExplicitStep::integrate_row(int row, const double* f) {
                          state_.v.data() + at(first)};
   const double damping = move_row(motion);
   if (record_) record_->add_row(row, damping);
+  if (!guided_.empty()) guide_row(row);
+}
+
+/// Takes back the motion of guided nodes across z.
+void ExplicitStep::guide_row(int row) {
+  const int begin = cloth_.row_slot(row), end = begin + cloth_.patches[cloth_.row_patch[row]].row_slots();
+  for (auto slot = std::lower_bound(guided_.begin(), guided_.end(), begin);
+       slot != guided_.end() && *slot < end; ++slot) {
+    const Vec3 x = get(state_.x.data(), *slot), v = get(state_.v.data(), *slot);
+    put(state_.x.data(), *slot, {x.x - dt_ * v.x, x.y - dt_ * v.y, x.z});
+    put(state_.v.data(), *slot, {0, 0, v.z});
+  }
 }
 
 void ExplicitStep::integrate_irregular(int begin, int end) {
   for (int k = begin; k < end; ++k) {
     if (irregular_inverse_mass_[k] == 0) continue;
     const int slot = cloth_.irregular[k].slot;
-    const Vec3 v = get(state_.v.data(), slot) + (dt_ * irregular_inverse_mass_[k]) * forces_.on_irregular(k);
+    Vec3 v = get(state_.v.data(), slot) + (dt_ * irregular_inverse_mass_[k]) * forces_.on_irregular(k);
+    if (irregular_guided_[k]) v.x = v.y = 0;
     put(state_.v.data(), slot, v);
     put(state_.x.data(), slot, get(state_.x.data(), slot) + dt_ * v);
   }

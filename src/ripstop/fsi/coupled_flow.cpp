@@ -134,8 +134,8 @@ double CoupledFlow::heaviness() const {
   return density_ * cell_width() / *std::min_element(mass_.begin(), mass_.end());
 }
 
-Loads CoupledFlow::last_load(const AirMemory& memory) const {
-  Loads load{memory.pressure, memory.force};
+Loads CoupledFlow::last_load(const Surroundings& surroundings, const AirMemory& memory) const {
+  Loads load{memory.pressure, memory.force, surroundings.guided};
   if (memory.pressure.empty()) load.cell_pressure.assign(cells_.size(), 0.0);
   load.node_force.resize(node_mass_.size());
   for (std::size_t n = 0; n < memory.other.size(); ++n) load.node_force[n] += memory.other[n];
@@ -144,9 +144,10 @@ Loads CoupledFlow::last_load(const AirMemory& memory) const {
 
 // The Robin condition: v_n = v_n,predicted + compliance (p - p_last), compliance = mean_share dt / (mass an area). On
 // folded cloth most of the last load is traction, which the drop of the faces contains: the motion of the sheet is
-// that without the tractions, else the air would respond to them twice.
+// that without the tractions, else the air would respond to them twice. Guided cloth moves as predicted.
 SheetMotion CoupledFlow::sheet_motion(const std::vector<Vec3>& positions, const ClothMotion& predicted,
-                                      double length, const AirMemory& memory) const {
+                                      double length, const std::vector<int>& guided,
+                                      const AirMemory& memory) const {
   SheetMotion motion;
   MovingCells cells;
   std::vector<double> area_about(node_mass_.size(), 0.0);  // every node [m2]
@@ -157,9 +158,14 @@ SheetMotion CoupledFlow::sheet_motion(const std::vector<Vec3>& positions, const 
     for (const int node : cell.corner) area_about[node] += 0.25 * norm(cells.area.back());
   }
   for (const double mass : mass_) motion.yields.push_back(mean_share(predicted.steps) * length / mass);
+  std::vector<char> is_guided(node_mass_.size(), 0);
+  for (const int node : guided) is_guided[node] = 1;
   for (std::size_t c = 0; c < cells_.size(); ++c) {
     if (cells_[c].corner[0] < 0) continue;
-    const double compliance = motion.yields[2 * cells.centre.size()];  // two triangles a cell
+    const std::size_t triangle = 2 * cells.centre.size();  // the first of two
+    if (std::ranges::all_of(cells_[c].corner, [&](int node) { return is_guided[node]; }))
+      motion.yields[triangle] = motion.yields[triangle + 1] = 0;
+    const double compliance = motion.yields[triangle];
     Vec3 centre, velocity;
     for (const int node : cells_[c].corner) {
       centre += 0.25 * positions[node], velocity += 0.25 * predicted.velocity[node];
@@ -178,7 +184,7 @@ FlowStep CoupledFlow::step(const std::vector<Vec3>& positions, const ClothMotion
                            const Surroundings& surroundings, AirMemory& memory) {
   flow_.set_density_ratio(surroundings.density_ratio);
   surface_ = surface_of(cells_, positions);
-  flow_.place(surface_, sheet_motion(positions, predicted, length, memory));
+  flow_.place(surface_, sheet_motion(positions, predicted, length, surroundings.guided, memory));
   if (surroundings.moves) flow_.stream(surroundings.stream, surroundings.gained);
   ++memory.steps;
   return flow_.step(length);
@@ -196,7 +202,7 @@ Loads CoupledFlow::transfer(const std::vector<Vec3>& positions, const Surroundin
     for (std::size_t n = 0; n < node_mass_.size(); ++n)
       memory.other[n] = node_mass_[n] * surroundings.on_mass;
   if (surroundings.node >= 0) memory.other[surroundings.node] += surroundings.force;
-  return last_load(memory);
+  return last_load(surroundings, memory);
 }
 
 void CoupledFlow::compute_added_mass(const std::vector<Vec3>& positions, double density_ratio,

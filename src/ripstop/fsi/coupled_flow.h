@@ -11,10 +11,10 @@
 #include <optional>
 #include <vector>
 
-#include "ripstop/cloth/cloth.h"
 #include "ripstop/cloth/step_memory.h"
 #include "ripstop/core/members.h"
 #include "ripstop/flow/flow.h"
+#include "ripstop/fsi/container.h"
 #include "ripstop/fsi/flow_at_density.h"
 #include "ripstop/fsi/payload.h"
 #include "ripstop/mesh/mesh.h"
@@ -26,6 +26,8 @@ struct AirProblem {
   double courant = 0.5;
   std::shared_ptr<FlowEngine> engine = {};
   std::optional<Payload> payload = {};  // absent: the riser's end is held
+  std::optional<ContainerPath> container =
+      {};  // that the canopy leaves; absent: it is outside from the start
 };
 
 /// Values of the last step that the next one needs.
@@ -99,6 +101,7 @@ struct Surroundings {
   double density_ratio = 1;  // of the air to that at deployment
   int node = -1;             // on which `force` acts [N]; -1: none
   Vec3 force;
+  std::vector<int> guided = {};  // Loads::guided in the step
 };
 
 /// Predicted motion of the cloth over one step of the flow.
@@ -121,8 +124,8 @@ class CoupledFlow {
 
   /// Largest length of the next step of the flow [s].
   double longest_step() { return flow_.longest_step(courant_); }
-  /// The last step's load on the cloth.
-  Loads last_load(const AirMemory& memory) const;
+  /// The last step's load on the cloth, with the guided nodes of the present one.
+  Loads last_load(const Surroundings& surroundings, const AirMemory& memory) const;
   /// One step about cloth that lies at `positions` at its beginning and moves as predicted.
   FlowStep step(const std::vector<Vec3>& positions, const ClothMotion& predicted, double length,
                 const Surroundings& surroundings, AirMemory& memory);
@@ -150,7 +153,7 @@ class CoupledFlow {
  private:
   double cell_width() const;  // [m]
   SheetMotion sheet_motion(const std::vector<Vec3>& positions, const ClothMotion& predicted, double length,
-                           const AirMemory& memory) const;
+                           const std::vector<int>& guided, const AirMemory& memory) const;
 
   ThreadTeam* team_;
   std::shared_ptr<FlowEngine> engine_;

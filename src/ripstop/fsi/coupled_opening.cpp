@@ -75,6 +75,7 @@ CoupledOpening::CoupledOpening(InflationProblem problem)
       air_(std::make_unique<CoupledFlow>(*problem.air, mesh(), &team())) {
   check_width(folded(), problem.air->flow.grid);
   check_folds(folded(), cells_of(mesh()), problem.air->flow.grid);
+  if (problem.air->container) container_.emplace(*problem.air->container, mesh(), folded().positions);
 }
 
 InflationState CoupledOpening::start() const {
@@ -117,7 +118,8 @@ AirRow CoupledOpening::step(InflationState& state, int rows, std::vector<History
     if (payload)
       deploy(flight, *payload, flight.speed, flow.air.density * density_ratio(*payload, flight.fallen));
   }
-  const Surroundings surroundings = payload ? in_flight(flight, *payload, length) : Surroundings{};
+  Surroundings surroundings = payload ? in_flight(flight, *payload, length) : Surroundings{};
+  if (container_) surroundings.guided = container_->guided(state.cloth.time);
   const double speed = flight.speed + length * flight.acceleration;
 
   const CoupledStep taken =

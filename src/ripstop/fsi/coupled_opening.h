@@ -2,8 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "ripstop/fsi/container.h"
 #include "ripstop/fsi/coupled_flow.h"
 #include "ripstop/fsi/opening.h"
 
@@ -25,6 +27,7 @@ class CoupledOpening : public Opening {
   int rows_of_next_step(const InflationState& state, int left);
 
   std::unique_ptr<CoupledFlow> air_;
+  std::optional<Container> container_;
 };
 
 }  // namespace ripstop::inline fsi

@@ -42,8 +42,8 @@ CoupledStep unguarded_step(CoupledFlow& air, const AdaptiveStepper& stepper, con
   // Predict the motion of the cloth under the last load.
   const double step = stepper.allowed_step(state, cloth);
   const int steps = steps_in(length, step, state.cloth.time);
-  const ClothMotion predicted =
-      predict_motion(state.cloth, cloth, air.last_load(state.air), length, steps, team, stepper.memory());
+  const ClothMotion predicted = predict_motion(state.cloth, cloth, air.last_load(surroundings, state.air),
+                                               length, steps, team, stepper.memory());
 
   // Step the flow about it, transfer its load.
   taken.flow = air.step(before, predicted, length, surroundings, state.air);

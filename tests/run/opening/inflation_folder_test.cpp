@@ -17,6 +17,7 @@
 #include "ripstop/core/file.h"
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/fsi/coupled_opening.h"
+#include "ripstop/fsi/opening_estimate.h"
 #include "ripstop/fsi/summary.h"
 #include "ripstop/fsi/uniform_pressure_opening.h"
 #include "ripstop/output/csv.h"
@@ -195,6 +196,33 @@ TEST_F(InflationFolderTest, AKilledCoupledRunResumesByteIdentical) {
          {"history.csv", "balance.csv", "air.csv", "lines.csv", "result.json", "vtk/air_0004.vti"})
       EXPECT_EQ(read_file(root / name / table), read_file(root / "whole" / table)) << name << ' ' << table;
   }
+}
+
+// The payload falls faster while the container leaves it.
+TEST_F(InflationFolderTest, AnOpeningAfterADeploymentIsComparedAtTheSpeedAfterIt) {
+  given = small_opening_in_air();
+  given.deployment.emplace();
+  given.inflation.mass = InflationSettings::Mass::payload;
+  given.payload.mass_kg = 5;
+  const Case opening = opening_case(given);
+  const Settings resolved = resolve(opening);
+  const LoadSource source = load_source(resolved);
+  const double speed = opening_problem(resolved, source, 1).air->flow.air.speed();
+  ASSERT_GT(speed, 1.01 * resolved.flow().speed_m_s);
+  InflationObserver silent;
+  const auto r = run_inflation_in(
+      {{root / "deployed"}, 1, 0}, resolved, source, [&] { return opening_problem(resolved, source, 1); },
+      silent);
+  ASSERT_TRUE(r && r->estimate.drag);
+  const Design& design = resolved.parachute();
+  const double area = nominal_area(design) * design_drag_coefficient(design, usual_drag_coefficient(design));
+  EXPECT_NEAR(*r->estimate.drag / (0.5 * resolved.flow().density_kg_m3 * speed * speed * area), 1, 1e-12);
+  EXPECT_NE(r->estimate.drag_from.find("the speed after the deployment"), std::string::npos);
+  const auto at_infinite_mass = std::find_if(r->handbook.begin(), r->handbook.end(), [](const MethodLoad& m) {
+    return m.method == infinite_mass_method;
+  });
+  ASSERT_NE(at_infinite_mass, r->handbook.end());
+  EXPECT_NEAR(at_infinite_mass->load / *r->estimate.load, 1, 1e-6);
 }
 
 // Killed when the air of the next checkpoint was on the disk and that checkpoint was not.

@@ -32,11 +32,11 @@ std::string limit_of_damping(const InflationSettings& inflation) {
                          : "which the case gives");
 }
 
-std::vector<MethodLoad> handbook_methods(const Settings& resolved) {
+std::vector<MethodLoad> handbook_methods(const Settings& resolved, double speed) {
   if (!resolved.payload().mass_kg) return {};
   LoadRequest request;
   request.payload_mass = *resolved.payload().mass_kg;
-  request.speed = resolved.flow().speed_m_s;
+  request.speed = speed;
   request.path_angle = resolved.inflation().flight_angle_deg;
   request.descent = false;
   try {

@@ -22,9 +22,9 @@ bool has_default_damping(const InflationSettings& inflation);
 /// Why the peak load of a uniform-pressure inflation is not a prediction.
 std::string limit_of_damping(const InflationSettings& inflation);
 
-/// All methods of run_load() for the payload, speed and density of the case. Empty where they cannot be computed (no
-/// payload, or a descent rate above the speed).
-std::vector<MethodLoad> handbook_methods(const Settings& resolved);
+/// All methods of run_load() for payload and density of the case at `speed` [m/s]. Empty where they cannot be computed
+/// (no payload, or a descent rate above the speed).
+std::vector<MethodLoad> handbook_methods(const Settings& resolved, double speed);
 
 /// The lowest and the highest load of the methods that apply and that compute the deceleration during filling [N].
 struct FiniteMassRange {

@@ -106,11 +106,16 @@ void take_steady_load(InflationResult& r, const LoadSource& source, const Openin
 /// Projected area over S0, below which a canopy is folded: an open one has 0.35 to 0.5.
 constexpr double folded_share = 0.25;
 
-/// C_x times the drag of the open canopy at the speed of deployment, and the handbook's methods for a payload.
+/// Speed at the start of the opening: after a deployment, that at which the canopy leaves its container [m/s].
+double opening_speed(const Settings& resolved, const Opening& solver) {
+  return solver.air() ? solver.problem().air->flow.air.speed() : resolved.flow().speed_m_s;
+}
+
+/// C_x times the drag of the open canopy at the speed of the opening, and the handbook's methods for a payload.
 void compare_with_handbook(InflationResult& r, const Settings& resolved, const LoadSource& source,
                            const Opening& solver) {
-  const FlowSettings& stream = resolved.flow();
-  const double q = 0.5 * stream.density_kg_m3 * stream.speed_m_s * stream.speed_m_s;
+  const double speed = opening_speed(resolved, solver);
+  const double q = 0.5 * resolved.flow().density_kg_m3 * speed * speed;
   std::optional<double> drag = source.steady_drag;
   std::string from = drag ? "the given steady drag" : "";
   if (!drag && r.steady_load) {
@@ -118,8 +123,8 @@ void compare_with_handbook(InflationResult& r, const Settings& resolved, const L
   } else if (!drag && solver.air()) {
     const double coefficient = usual_drag_coefficient(resolved.parachute());
     drag = coefficient * nominal_area(resolved.parachute()) * q;
-    from = fmt::format("C_D {:.3g} (middle of the handbook range) on S0 at {:.4g} m/s", coefficient,
-                       stream.speed_m_s);
+    from = fmt::format("C_D {:.3g} (middle of the handbook range) on S0 at {:.4g} m/s{}", coefficient, speed,
+                       speed == resolved.flow().speed_m_s ? "" : ", the speed after the deployment");
   }
   r.estimate = opening_estimate(resolved.parachute(), drag, q, from);
   const double peak = r.smooth_peak.value_or(r.peak_load);
@@ -127,7 +132,7 @@ void compare_with_handbook(InflationResult& r, const Settings& resolved, const L
   if (solver.air() && !flies(solver) && drag && full) r.opening_force_coefficient = peak / *drag;
   if (!flies(solver)) return;
   if (r.estimate.load && full) r.finite_mass_factor = peak / *r.estimate.load;
-  r.handbook = handbook_methods(resolved);
+  r.handbook = handbook_methods(resolved, speed);
 }
 
 /// The deployment before the opening, and how the canopy has filled.
