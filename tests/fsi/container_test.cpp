@@ -32,7 +32,7 @@ TEST(Container, TheShareOutsideIsLinearBetweenItsTimes) {
   EXPECT_EQ(path.outside(5), 1);
 }
 
-TEST(Container, HoldsTheClothBeyondTheShareOutside) {
+TEST(Container, ConfinesTheClothBeyondTheShareOutside) {
   const CoupledOpening opening(opening_from_a_container());
   const std::vector<Vec3>& folded = opening.folded().positions;
   const Container container({{0, 1}, {0, 1}}, opening.mesh(), folded);
@@ -69,7 +69,7 @@ Sideways moved_sideways(const Opening& opening, const ClothState& state, const s
   return moved;
 }
 
-TEST(Container, HoldsClothUnderPressureAndTheEnergyBalanceCloses) {
+TEST(Container, ConfinesClothUnderPressureAndTheEnergyBalanceCloses) {
   const CoupledOpening opening(opening_from_a_container());
   const Cloth& cloth = opening.cloth();
   const Container container({{0, 1}, {0, 1}}, opening.mesh(), opening.folded().positions);
