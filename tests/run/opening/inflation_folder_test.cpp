@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "ripstop/case/assemble.h"
+#include "ripstop/case/payload.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/flow/cartesian/cartesian.h"
