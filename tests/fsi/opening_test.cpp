@@ -349,9 +349,9 @@ TEST(Inflation, AFreeSheetReachesItsTerminalSpeed) {
     step(state, *cloth, {std::vector<double>(72, dp), {}}, dt, static_cast<int>(t / dt + 0.5), team);
     return velocities(state, *cloth)[40].z;
   };
-  EXPECT_NEAR(speed_with(8.2, 0) / (dp / 8.2 * (1 - std::exp(-8.2 * t / areal_mass))), 1, 1e-3);
-  EXPECT_NEAR(speed_with(0, 0.4) / (std::sqrt(dp / 0.4) * std::tanh(std::sqrt(dp * 0.4) * t / areal_mass)), 1,
-              1e-3);
+  EXPECT_NEAR(speed_with(8.2, 0) / (dp / 8.2 * (1 - std::exp(-8.2 * t / mass_per_area))), 1, 1e-3);
+  EXPECT_NEAR(speed_with(0, 0.4) / (std::sqrt(dp / 0.4) * std::tanh(std::sqrt(dp * 0.4) * t / mass_per_area)),
+              1, 1e-3);
 }
 
 TEST(UniformPressure, TheEquilibriumCarriesTheDragThatWasAskedFor) {
