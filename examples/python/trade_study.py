@@ -4,8 +4,10 @@
     python3 examples/python/trade_study.py --mass 2.4 --diameters 1.2 1.5 1.8 --out trade.csv
 
 Mass and packed volume are those of the parachute as cut. The drag coefficient is that of the family (examples/families.json).
-With --fly it is that of a coupled run of each parachute, which takes minutes. The opening load is the highest of the applicable
-methods. Every size has the tape of the example; for small sizes use --set 'parachute.tape.material="none"'.
+With --fly it is that of a coupled run of each parachute, which takes minutes. Design with highest_design_load_n, the design load
+plus its uncertainty. finite_mass_load_n is the highest load of the applicable methods that compute the deceleration of the payload
+while the canopy fills, and trajectory_peak_n is that of the trajectory; a canopy that fills faster has larger loads. Every size has
+the tape of the example; for small sizes use --set 'parachute.tape.material="none"'.
 """
 import argparse
 import csv
@@ -30,10 +32,12 @@ def row_of(family, diameter, drag_coefficient, options):
         drag_coefficient = ripstop.steady(case).drag_coefficient
     cut = ripstop.pattern(case)
     load = ripstop.load(case, options.mass, options.speed, height_m=options.height, drag_coefficient=drag_coefficient)
-    opening = load.stages[-1]
+    finite_mass = [method.load_n for method in load.stages[-1].methods if method.applies and method.method != "infinite mass"]
     return {"family": family, "nominal_diameter_m": diameter, "drag_coefficient": drag_coefficient, "parachute_mass_kg": cut.mass_kg,
             "packed_volume_l": 1000 * cut.packed_volume_m3, "descent_rate_m_s": load.flight["speed_m_s"][-1],
-            "opening_load_n": opening.highest_n, "peak_of_flight_n": load.peak_load_n}
+            "design_load_n": load.design_load_n, "highest_design_load_n": load.highest_design_load_n,
+            "margin_of_safety": load.smallest_margin_of_safety, "weakest_member": load.smallest_margin_member,
+            "finite_mass_load_n": max(finite_mass, default=None), "trajectory_peak_n": load.peak_load_n}
 
 
 def arguments():
