@@ -79,6 +79,26 @@ TEST_F(Inputs, ACoupledInflationIsCheckedAndRefusedForClothThatIsNoSheet) {
   EXPECT_NE(check.output.find("coupled flow at 20 m/s: 80 x 80 x 98 cells"), std::string::npos)
       << check.output;
   refused({"inflate", stratos, "--air", "coupled"}, 2, "flow.porosity_model");
+  const auto deployed = [&](const char* strip_force) {
+    return std::vector<std::string>{"inflate",
+                                    flat,
+                                    "--air",
+                                    "coupled",
+                                    "--cloth-nodes",
+                                    "1500",
+                                    "--check",
+                                    "--set",
+                                    "inflation.mass=payload",
+                                    "--set",
+                                    "payload.mass_kg=2",
+                                    "--set",
+                                    std::string("deployment.strip_force_n=") + strip_force};
+  };
+  const Finished bag = ripstop_with(deployed("1"));
+  EXPECT_EQ(bag.code, 0) << bag.output;
+  EXPECT_NE(bag.output.find(" m/s, the speed after the deployment: 80 x 80 x 98 cells"), std::string::npos)
+      << bag.output;
+  refused(deployed("1000"), 2, "or a higher flow.speed_m_s (20 m/s) pulls it out");
 }
 
 TEST_F(Inputs, AnOpeningWithoutARadiusHasAClosedMouthAndStatesIt) {

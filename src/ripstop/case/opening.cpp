@@ -50,19 +50,28 @@ ContainerPath container_path(const Deployment& deployment, const DeploymentPhase
   return path;
 }
 
+bool lines_first(const Settings& opening) {
+  return opening.deployment()->order == DeploymentKeys::Order::lines_first;
+}
+
 /// The state at which the canopy begins to leave its bag; canopy first, at which the lines come taut.
+const DeploymentPhase& start_of_opening(const Deployment& deployment, const Settings& opening) {
+  return *deployment.phase(lines_first(opening) ? canopy_leaves : lines_stretch);
+}
+
 void start_from(const Deployment& deployment, const Settings& opening, InflationProblem& problem) {
   if (deployment.stopped)
     throw Error(
         ExitCode::usage,
         fmt::format("[deployment]: the canopy does not open. {}. A lower deployment.strip_force_n or "
-                    "line_force_n, a larger pilot_drag_area_m2 or a higher relative_speed_m_s pulls it out",
-                    *deployment.stopped));
-  const PackedParachute packed = packed_parachute(opening);
-  const DeploymentPhase& start = *deployment.phase(packed.lines_first ? canopy_leaves : lines_stretch);
+                    "line_force_n, a larger pilot_drag_area_m2, a higher relative_speed_m_s or a higher "
+                    "flow.speed_m_s ({:g} m/s) pulls it out",
+                    *deployment.stopped, opening.flow().speed_m_s));
+  const DeploymentPhase& start = start_of_opening(deployment, opening);
   problem.air->flow.air.velocity =
       (start.payload_speed / problem.air->flow.air.speed()) * problem.air->flow.air.velocity;
-  if (packed.lines_first) problem.air->container = container_path(deployment, start, packed.canopy_length);
+  if (lines_first(opening))
+    problem.air->container = container_path(deployment, start, packed_parachute(opening).canopy_length);
 }
 
 /// Payload::density_ratio in the standard atmosphere, from the height that the case gives.
@@ -118,8 +127,14 @@ OpeningAir opening_air(const Settings& resolved, std::optional<double> height, s
 
 LoadSource load_source(const Settings& opening) {
   const InflationSettings& inflation = opening.inflation();
-  if (inflation.air == AirModel::coupled)
-    return {fmt::format("coupled flow at {:g} m/s", opening.flow().speed_m_s), {}};
+  if (inflation.air == AirModel::coupled) {
+    const auto deployment = deployment_of(opening);
+    if (!deployment || deployment->stopped)
+      return {fmt::format("coupled flow at {:g} m/s", opening.flow().speed_m_s), {}};
+    return {fmt::format("coupled flow at {:.4g} m/s, the speed after the deployment",
+                        start_of_opening(*deployment, opening).payload_speed),
+            {}};
+  }
   if (inflation.pressure_pa.has_value() == inflation.drag_coefficient.has_value()) {
     throw Error(ExitCode::usage,
                 std::string(inflation.pressure_pa ? "the pressure is given twice: give only one"

@@ -310,7 +310,7 @@ TEST(Size, OverMassRateHeightAndFamilyIsBalancedOrRefused) {
 
 TEST(Size, ImpossibleInputIsRefused) {
   SizeRequest asked = sized("flat-circula");
-  EXPECT_NE(refused(asked).find("did you mean flat-circular?"), std::string::npos);
+  EXPECT_NE(refused(asked).find("there is no such family; did you mean flat-circular?"), std::string::npos);
   const std::string slotted = refused(sized("ringsail"));
   EXPECT_EQ(
       slotted.find("--family ringsail: no computed drag coefficient is shipped for this family; use one of "),

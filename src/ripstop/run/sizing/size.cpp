@@ -37,12 +37,18 @@ FamilyDrag drag_of(const std::string& family) {
     if (row.family == family) return row;
     names.push_back(row.family);
   }
+  const bool exists = std::ranges::any_of(
+      families(), [&](const CanopyFamily* each) { return each->type == std::string_view(family); });
+  if (exists)
+    throw Error(
+        ExitCode::usage,
+        fmt::format("--family {}: no computed drag coefficient is shipped for this family; use one of {}, "
+                    "or write a case of this family and use ripstop load",
+                    family, fmt::join(names, ", ")));
   const std::string near = nearest(family, names);
-  throw Error(
-      ExitCode::usage,
-      fmt::format("--family {}: no computed drag coefficient is shipped for this family; {}use one of {}, "
-                  "or write a case of this family and use ripstop load",
-                  family, near.empty() ? "" : "did you mean " + near + "? ", fmt::join(names, ", ")));
+  throw Error(ExitCode::usage,
+              fmt::format("--family {}: there is no such family; {}available: {}", family,
+                          near.empty() ? "" : "did you mean " + near + "? ", fmt::join(names, ", ")));
 }
 
 /// Drag and weight at `factor` times the size of the example.
