@@ -8,15 +8,13 @@ coarse cells. One parameter is changed at a time. Writes docs/tables/filling.md 
 computed again, and an interrupted one continues. `--rows base,mass-10` computes these rows only.
 """
 import argparse
-import csv
-import json
 import math
 import pathlib
-import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "validation"))
+import openings  # pylint: disable=wrong-import-position
 import tables  # pylint: disable=wrong-import-position
 
 CASE = "validation/flight/flat-circular.toml"
@@ -43,45 +41,20 @@ ROWS = {
 
 
 def run(options, name):
-    """The command of one row, and its result; None where it failed."""
+    """The result of one row; None where it failed."""
     keys = {**COARSE, **ROWS[name][1]}
     keys["inflation.duration_s"] = f"{TRAVEL / float(keys['flow.speed_m_s']):g}"
-    folder = options.runs.resolve() / name
-    command = [str(options.ripstop.resolve()), "inflate", CASE, "--air", "coupled", "--out", str(folder),
-               "--threads", str(options.threads)]
-    for key, value in keys.items():
-        command += ["--set", f"{key}={value}"]
-    print("$ ripstop " + " ".join(command[1:]), flush=True)
-    if subprocess.run(command, cwd=ROOT, check=False, stdout=subprocess.DEVNULL).returncode not in (0, 4):
-        print(f"{name}: ripstop failed; the same command continues", file=sys.stderr)
-        return None
-    return json.loads((folder / "result.json").read_text())
-
-
-def columns(folder, name):
-    with open(folder / name, encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
-    return {key: [float(row[key]) for row in rows] for key in rows[0]}
-
-
-def travelled(folder, speed, time):
-    """Distance of the payload through the air until `time` [m]."""
-    air = columns(folder, "air.csv")
-    if not any(air["path_m"]):
-        return speed * time
-    return next((path for t, path in zip(air["time_s"], air["path_m"]) if t >= time), air["path_m"][-1])
+    return openings.run(options, CASE, keys, options.runs.resolve() / name)
 
 
 def measures(options, name, r):
     folder = options.runs.resolve() / name
     speed = float({**COARSE, **ROWS[name][1]}["flow.speed_m_s"])
     peak, time = r["low_pass_peak_load_n"], r["low_pass_peak_time_s"]
-    balance = columns(folder, "balance.csv")
-    widest = max(balance["projected_area_m2"])
-    half = next(t for t, a in zip(balance["time_s"], balance["projected_area_m2"]) if a >= 0.5 * widest)
+    half = openings.half_area_time(folder)
     pressure = DENSITY / 2 * speed ** 2 * math.pi / 4 * DIAMETER ** 2
-    return {"peak": peak, "way": travelled(folder, speed, time) / DIAMETER,
-            "half": travelled(folder, speed, half) / DIAMETER, "filled": r.get("filling_distance_diameters"),
+    return {"peak": peak, "way": openings.travelled(folder, speed, time) / DIAMETER,
+            "half": openings.travelled(folder, speed, half) / DIAMETER, "filled": r.get("filling_distance_diameters"),
             "on_area": peak / pressure, "energy": 100 * r["energy_residual"]}
 
 
@@ -97,7 +70,7 @@ def plot(options, done):
     width, height, left, low = 640, 360, 50, 320
     parts = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" font-family="sans-serif" '
              'font-size="11">', f'<rect width="{width}" height="{height}" fill="white"/>']
-    balances = {name: columns(options.runs.resolve() / name, "balance.csv") for name in done}
+    balances = {name: openings.columns(options.runs.resolve() / name, "balance.csv") for name in done}
     top = math.ceil(max(max(balance["projected_area_m2"]) for balance in balances.values()) / 0.5)  # in 0.5 m2
     for k in range(5):
         parts.append(f'<text x="{left + 100 * k}" y="{low + 16}" text-anchor="middle">{k}</text>')
@@ -110,7 +83,7 @@ def plot(options, done):
         folder = options.runs.resolve() / name
         speed = float({**COARSE, **ROWS[name][1]}["flow.speed_m_s"])
         balance, colour = balances[name], f"hsl({i * 360 // len(done)},70%,40%)"
-        points = [(travelled(folder, speed, t) / DIAMETER, a)
+        points = [(openings.travelled(folder, speed, t) / DIAMETER, a)
                   for t, a in zip(balance["time_s"], balance["projected_area_m2"])]
         line = " ".join(f"{left + 100 * x:.1f},{low - 600 / top * a:.1f}" for x, a in points if x <= 4)
         parts.append(f'<polyline points="{line}" fill="none" stroke="{colour}"/>')

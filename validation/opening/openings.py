@@ -1,0 +1,48 @@
+"""Coupled openings of the studies of this folder: runs them, and reads histories from their run folders."""
+import csv
+import json
+import pathlib
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+UNUSABLE = 4  # exit code of a run that has a result with a caution
+
+
+def keys_of(keys):
+    """Options of ripstop that set these keys of a case."""
+    return [option for key, value in keys.items() for option in ("--set", f"{key}={value}")]
+
+
+def run(options, case, keys, folder):
+    """Runs one opening, or continues it. Returns its result; None where the run failed or was refused."""
+    command = [str(options.ripstop.resolve()), "inflate", case, "--air", "coupled", "--out", str(folder),
+               "--threads", str(options.threads), *keys_of(keys)]
+    print("$ ripstop " + " ".join(command[1:]), flush=True)
+    done = subprocess.run(command, cwd=ROOT, check=False, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    print(done.stderr, end="", file=sys.stderr, flush=True)
+    if done.returncode not in (0, UNUSABLE):
+        print(f"{folder.name}: ripstop failed with exit code {done.returncode}; the same command continues", file=sys.stderr)
+        return None
+    return json.loads((folder / "result.json").read_text())
+
+
+def columns(folder, name):
+    with open(folder / name, encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    return {key: [float(row[key]) for row in rows] for key in rows[0]}
+
+
+def travelled(folder, speed, time):
+    """Distance of the payload through the air until `time` [m]."""
+    air = columns(folder, "air.csv")
+    if not any(air["path_m"]):
+        return speed * time
+    return next((path for t, path in zip(air["time_s"], air["path_m"]) if t >= time), air["path_m"][-1])
+
+
+def half_area_time(folder):
+    """Time at which the projected area reaches half of its largest value [s]."""
+    balance = columns(folder, "balance.csv")
+    widest = max(balance["projected_area_m2"])
+    return next(t for t, a in zip(balance["time_s"], balance["projected_area_m2"]) if a >= 0.5 * widest)
