@@ -41,7 +41,7 @@ ROWS = {
 
 
 def run(options, name):
-    """The result of one row; None where it failed."""
+    """The result of one row."""
     keys = {**COARSE, **ROWS[name][1]}
     keys["inflation.duration_s"] = f"{TRAVEL / float(keys['flow.speed_m_s']):g}"
     return openings.run(options, CASE, keys, options.runs.resolve() / name)
@@ -100,9 +100,10 @@ def main():
     options = parser.parse_args()
     done = {}
     for name in options.rows.split(","):
-        result = run(options, name)
-        if result:
-            done[name] = measures(options, name, result)
+        try:
+            done[name] = measures(options, name, run(options, name))
+        except openings.Failed as failed:
+            print(f"{name}: {failed}; the same command continues", file=sys.stderr)
     rows = [row_of(name, m, done.get("held")) for name, m in done.items()]
     table = tables.table(["changed", "peak at 100 Hz N", "distance to the peak / D0", "distance to half of the largest area / D0",
                           "filling distance / D0", "peak over q S0", "X_1", "energy residual %"], rows)

@@ -9,21 +9,25 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 UNUSABLE = 4  # exit code of a run that has a result with a caution
 
 
+class Failed(Exception):
+    """A run that failed or was refused, with the reason that the program gives."""
+
+
 def keys_of(keys):
     """Options of ripstop that set these keys of a case."""
     return [option for key, value in keys.items() for option in ("--set", f"{key}={value}")]
 
 
 def run(options, case, keys, folder):
-    """Runs one opening, or continues it. Returns its result; None where the run failed or was refused."""
+    """Result of one opening, which runs or continues. Throws Failed."""
     command = [str(options.ripstop.resolve()), "inflate", case, "--air", "coupled", "--out", str(folder),
                "--threads", str(options.threads), *keys_of(keys)]
     print("$ ripstop " + " ".join(command[1:]), flush=True)
     done = subprocess.run(command, cwd=ROOT, check=False, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     print(done.stderr, end="", file=sys.stderr, flush=True)
     if done.returncode not in (0, UNUSABLE):
-        print(f"{folder.name}: ripstop failed with exit code {done.returncode}; the same command continues", file=sys.stderr)
-        return None
+        reasons = [line.removeprefix("ripstop: ") for line in done.stderr.splitlines() if line.startswith("ripstop: ")]
+        raise Failed(f"exit code {done.returncode}: {reasons[-1] if reasons else 'no message'}")
     return json.loads((folder / "result.json").read_text())
 
 
