@@ -5,7 +5,8 @@
 
 Coupled openings of flat circular canopies on the default cells with 2,500 cloth nodes, compared with the handbook
 (`ripstop load`). Nothing is fitted. Writes docs/tables/regimes.md and its plots. A finished run is not computed again,
-and an interrupted one continues. `--rows c-9,base-100` computes these rows only.
+and an interrupted one continues. `--rows c-9,base-100` computes these rows only. `--tables` runs nothing: page and plots
+have the finished rows.
 """
 import argparse
 import json
@@ -30,6 +31,7 @@ CLOTHS = {"100": {}, "3": {"parachute.canopy_material": "f-111-physical"}}  # CF
 DRAG_COEFFICIENT = 0.8  # of the handbook methods: that of the infinite-mass load
 METHODS = {"Pflanz": "", "Ludtke": "8 3", "momentum-impulse": "2 3"}  # dashes of their lines
 COLOURS, HANDBOOK = {"100": "#0072B2", "3": "#D55E00"}, "#555"  # Okabe and Ito (2008)
+MISSING = "not computed"
 LINES_FIRST = {"deployment.order": "lines-first"}
 
 
@@ -50,18 +52,18 @@ def speed(metres):
 
 # name: (group, subject, changed keys, duration as a distance at the speed of deployment [D0]), for both cloths
 BOTH = {
-    "held": ("mass", "fixed in the stream", {"inflation.mass": "infinite"}, 2.9),
-    "mass-150": ("mass", "150 kg", mass(150), 2.9),
-    "mass-40": ("mass", "40 kg", mass(40), 2.9),
-    "mass-10": ("mass", "10 kg", mass(10), 2.9),
-    "base": ("mass", "2.4 kg", {}, 3.6),
-    "mass-0.6": ("mass", "0.6 kg", mass(0.6), 5.0),
-    "speed-15": ("speed", "15 m/s", speed(15), 3.6),
-    "speed-40": ("speed", "40 m/s", speed(40), 3.6),
-    "speed-80": ("speed", "80 m/s", speed(80), 3.6),
-    "size-1": ("size", "1 m", size(1, 0.32), 3.6),
-    "size-3": ("size", "3 m", size(3, 13.1), 3.6),
-    "size-10": ("size", "10 m", size(10, 509, 24, "nylon-line-type-iii", "nylon-tape-1000-lbf"), 3.6),
+    "held": ("mass", "fixed in the stream", {"inflation.mass": "infinite"}, 3.6),
+    "mass-150": ("mass", "150 kg", mass(150), 3.6),
+    "mass-40": ("mass", "40 kg", mass(40), 3.6),
+    "mass-10": ("mass", "10 kg", mass(10), 3.6),
+    "base": ("mass", "2.4 kg", {}, 4.6),
+    "mass-0.6": ("mass", "0.6 kg", mass(0.6), 7.0),
+    "speed-15": ("speed", "15 m/s", speed(15), 4.6),
+    "speed-40": ("speed", "40 m/s", speed(40), 4.6),
+    "speed-80": ("speed", "80 m/s", speed(80), 6.5),
+    "size-1": ("size", "1 m", size(1, 0.32), 4.6),
+    "size-3": ("size", "3 m", size(3, 13.1), 4.6),
+    "size-10": ("size", "10 m", size(10, 509, 24, "nylon-line-type-iii", "nylon-tape-1000-lbf"), 6.5),
 }
 # name: (case, cloth CFM, group, subject, changed keys, duration as a distance at the speed of deployment [D0])
 ROWS = {"c-9": (C_9, "100", "handbook", "C-9 class, lines first", {"flow.speed_m_s": "60", **LINES_FIRST}, 5.5)}
@@ -89,13 +91,23 @@ def folder_of(options, name):
     return options.runs.resolve() / f"{name}-{ROWS[name][-1]:g}"
 
 
+def result_of(options, name):
+    """result.json of a row, whose opening runs or continues if it has not finished."""
+    finished = folder_of(options, name) / "result.json"
+    if not options.tables:
+        return openings.run(options, ROWS[name][0], keys_of(name), folder_of(options, name))
+    if not finished.exists():
+        raise openings.Failed(MISSING)
+    return json.loads(finished.read_text())
+
+
 def handbook(options, name, *more, kilograms=None):
     """Result of `ripstop load` for a row, on a horizontal path and with the upper end of the handbook's drag coefficients."""
     keys = keys_of(name)
     parachute = {key: value for key, value in keys.items() if key.startswith("parachute.")}
     with tempfile.TemporaryDirectory() as folder:
-        command = [str(options.ripstop.resolve()), "load", ROWS[name][0], "--mass", kilograms or keys["payload.mass_kg"], "--speed", keys["flow.speed_m_s"],
-                   "--angle", "0", "--drag-coefficient", f"{DRAG_COEFFICIENT:g}", "--out", folder, *openings.keys_of(parachute), *more]
+        command = [str(options.ripstop.resolve()), "load", ROWS[name][0], "--mass", kilograms or keys["payload.mass_kg"],
+                   "--speed", keys["flow.speed_m_s"], "--angle", "0", "--drag-coefficient", f"{DRAG_COEFFICIENT:g}", "--out", folder, *openings.keys_of(parachute), *more]
         subprocess.run(command, cwd=ROOT, check=True, capture_output=True)
         return json.loads((pathlib.Path(folder) / "result.json").read_text())
 
@@ -126,8 +138,9 @@ def measures(options, name, result):
     found["on_handbook"] = found["on_area"] / (DRAG_COEFFICIENT * loads["opening_coefficient"])
     if found["filled"]:
         found |= {"way": result["filling_distance_diameters"], "nominal": velocity * result["filling_time_s"] / diameter,
-                  "exponent": result["area_growth_exponent"],
-                  "with_computed": factors(handbook(options, name, "--from", str(folder)))["Pflanz"]}
+                  "exponent": result["area_growth_exponent"]}
+        computed = ("--filling-constant", f"{found['nominal']:.4g}", "--filling-exponent", f"{found['exponent']:.4g}")
+        found["with_computed"] = factors(handbook(options, name, *computed))["Pflanz"]
     return found
 
 
@@ -158,7 +171,7 @@ def row_of(name, m, done):
 
 HEAD = ["changed", "cloth CFM", "R_m", "filling distance / D0", "v t_f / D0", "area exponent j", "distance to half of the largest area / D0",
         "distance to the peak / D0", "peak N", "peak over q S0", "X_1", "peak over infinite-mass load of the handbook", "X_1 Pflanz", "X_1 Ludtke",
-        "X_1 momentum-impulse", "X_1 Pflanz with computed n and j", "energy residual %"]
+        "X_1 momentum-impulse", "X_1 Pflanz with computed t_f and j", "energy residual %"]
 
 
 def of(done, group, cloth, value):
@@ -199,8 +212,10 @@ def plot_mass(options, done):
 
 def plot_load(done):
     """Peak over q S0, and filling distance, over speed and size."""
-    speeds = panels.Panel(0, "peak over q S0, and filling distance / D0", "speed, m/s", (10, 100), {k: f"{k}" for k in (10, 20, 40, 80)}, 3, 0.5)
-    sizes = panels.Panel(1, "peak over q S0, and filling distance / D0", "nominal diameter, m", (0.8, 12), {k: f"{k}" for k in (1, 2, 5, 10)}, 3, 0.5)
+    title, labels = "peak over q S0, and filling distance / D0", lambda *values: {value: f"{value}" for value in values}
+    highest = 0.5 * math.ceil(2 * max(max(m["on_area"], m["way"] or 0) for name, m in done.items() if not m["held"]))
+    speeds = panels.Panel(0, title, "speed, m/s", (10, 100), labels(10, 20, 40, 80), highest, 0.5)
+    sizes = panels.Panel(1, title, "nominal diameter, m", (0.8, 12), labels(1, 2, 5, 10), highest, 0.5)
     for cloth, colour in COLOURS.items():
         for panel, group in ((speeds, "speed"), (sizes, "size")):
             for key, filled, dashes in (("on_area", True, ""), ("way", False, "2 3")):
@@ -220,6 +235,12 @@ def deployed_table(done):
                          "v t_f / D0 of the coupled opening", "n of the handbook"], rows)
 
 
+def without_result(failures):
+    missing = [f"{ROWS[name][3]} ({ROWS[name][1]} CFM)" for name, reason in failures.items() if reason == MISSING]
+    failed = [f"{ROWS[name][3]} ({ROWS[name][1]} CFM) failed, {reason}." for name, reason in failures.items() if reason != MISSING]
+    return ([f"Not computed: {', '.join(missing)}.", ""] if missing else []) + ([" ".join(failed), ""] if failed else [])
+
+
 def write(options, done, failures):
     base = [m for name, m in done.items() if name.startswith("base")][0]
     made = [run for name in done for run in tables.runs_below(folder_of(options, name))]
@@ -228,15 +249,14 @@ def write(options, done, failures):
         "([description](../validation/inflation.md#regimes)). If no other value is stated, the canopy has 1.76 m, 12 gores and 2.4 kg "
         "at 20 m/s. The path is horizontal at the start. A single peak scatters by 10 % (two standard deviations).", "",
         *tables.table(HEAD, [row_of(name, m, done) for name, m in done.items()]),
-        *(f"- Without a result: {ROWS[name][3]}, {ROWS[name][1]} CFM. {reason}" for name, reason in failures.items()),
-        *([""] if failures else []),
+        *without_result(failures),
         "D0: nominal diameter. 100 CFM: mil-c-7020-type-i; 3 CFM: f-111-physical. R_m: mass ratio of `ripstop load` with the mass of "
         "payload and parachute; 0: fixed in the stream. Distances are those of the payload through the air from the start of the coupled "
         "opening. Filling distance: until the projected area first reaches its mean over the last fifth. v t_f / D0: filling time times "
         "the speed at the start. Peak: low-passed at 8.8 v / D0 (100 Hz at 20 m/s and 1.76 m). X_1: peak over q S0, divided by that of the "
         "canopy of 1.76 m of the same cloth that is fixed in the stream at 20 m/s. "
         f"Handbook: C_D {DRAG_COEFFICIENT:g}, `ripstop load --angle 0`, load over infinite-mass load; its filling distance is "
-        f"{base['constant']:.2f} D0 at 20 m/s. Computed n and j: `ripstop load --from` that opening.", "",
+        f"{base['constant']:.2f} D0 at 20 m/s. Computed t_f and j: `ripstop load` with `--filling-constant` v t_f / D0 and `--filling-exponent` j of that opening.", "",
         "The table gives the filling distance of deployments from a container. The first column is the distance if the canopy leaves its "
         "container at once. The sum is the distance from line stretch if it fills after it has left the container.", "",
         *deployed_table(done),
@@ -253,15 +273,16 @@ def main():
     parser.add_argument("--runs", type=pathlib.Path, default=ROOT / "runs/regimes")
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--rows", default=",".join(ROWS), help="names of rows, comma-separated")
+    parser.add_argument("--tables", action="store_true", help="run nothing, and write page and plots of the finished rows")
     options = parser.parse_args()
     done, failures = {}, {}
     for name in options.rows.split(","):
         try:
-            done[name] = measures(options, name, openings.run(options, ROWS[name][0], keys_of(name), folder_of(options, name)))
+            done[name] = measures(options, name, result_of(options, name))
         except openings.Failed as failed:
             failures[name] = str(failed)
     print("\n".join(tables.table(HEAD, [row_of(name, m, done) for name, m in done.items()])), failures)
-    if {*done, *failures} == set(ROWS):
+    if options.tables or {*done, *failures} == set(ROWS):
         write(options, done, failures)
 
 
