@@ -122,13 +122,14 @@ def measures(options, name, result):
     """Quantities of a row, from the result of its opening and from the handbook."""
     folder, (diameter, velocity) = folder_of(options, name), nominal(name)
     loads = handbook(options, name)
-    stripping = None
+    stripping = stripping_nominal = None
     if result.get("deployment"):
         phases = {phase["phase"]: phase for phase in result["deployment"]["phases"]}
         velocity = phases["canopy leaves the bag"]["payload_speed_m_s"]
         stripping = (phases["canopy is out"]["path_m"] - phases["lines stretch"]["path_m"]) / diameter
+        stripping_nominal = velocity * (phases["canopy is out"]["time_s"] - phases["lines stretch"]["time_s"]) / diameter
     dynamic = loads["density_kg_m3"] / 2 * velocity ** 2
-    found = {"mass_ratio": loads["stages"][0]["mass_ratio"], "peak": result["low_pass_peak_load_n"], "stripping": stripping,
+    found = {"mass_ratio": loads["stages"][0]["mass_ratio"], "peak": result["low_pass_peak_load_n"], "stripping": stripping, "stripping_nominal": stripping_nominal,
              "held": keys_of(name)["inflation.mass"] == "infinite", "energy": 100 * result["energy_residual"], "usable": result["usable"],
              "to_peak": openings.travelled(folder, velocity, result["low_pass_peak_time_s"]) / diameter, "handbook": factors(loads),
              "constant": loads["stages"][0]["filling_constant"], "added_mass": result["added_mass_kg"],
@@ -229,10 +230,15 @@ def plot_load(done):
 
 def deployed_table(done):
     """Distances from line stretch of the rows with a deployment: without and with that of leaving the container."""
-    rows = [[ROWS[name][3], number(m["way"]), number(m["stripping"]), number(m["way"] + m["stripping"]) if m["filled"] else "not filled",
-             number(m["nominal"]), number(m["constant"])] for name, m in done.items() if m["stripping"] is not None]
-    return tables.table(["deployment", "coupled opening alone, D0", "canopy leaves its container, D0", "sum, D0",
-                         "v t_f / D0 of the coupled opening", "n of the handbook"], rows)
+    rows = []
+    for name, m in done.items():
+        if m["stripping"] is None:
+            continue
+        for subject, way, stripping in (("path", "way", "stripping"), ("v t_f", "nominal", "stripping_nominal")):
+            total = m[way] + m[stripping] if m["filled"] else None
+            rows.append([ROWS[name][3], subject, number(m[way]), number(m[stripping]), number(total), number(m["constant"])])
+    return tables.table(["deployment", "distance", "coupled opening alone, D0", "canopy leaves its container, D0", "sum, D0",
+                         "n of the handbook"], rows)
 
 
 def without_result(failures):
@@ -258,7 +264,7 @@ def write(options, done, failures):
         f"Handbook: C_D {DRAG_COEFFICIENT:g}, `ripstop load --angle 0`, load over infinite-mass load; its filling distance is "
         f"{base['constant']:.2f} D0 at 20 m/s. Computed t_f and j: `ripstop load` with `--filling-constant` v t_f / D0 and `--filling-exponent` j of that opening.", "",
         "The table gives the filling distance of deployments from a container. The first column is the distance if the canopy leaves its "
-        "container at once. The sum is the distance from line stretch if it fills after it has left the container.", "",
+        "container at once. The sum is the distance from line stretch if it fills after it has left the container. The handbook defines n with v t_f.", "",
         *deployed_table(done),
         "![Filling distance and X_1 over the mass ratio](regimes-mass.svg)", "",
         "![Peak and filling distance over speed and size](regimes-load.svg)"]
