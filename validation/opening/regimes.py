@@ -131,6 +131,8 @@ def measures(options, name, result):
     dynamic = loads["density_kg_m3"] / 2 * velocity ** 2
     found = {"mass_ratio": loads["stages"][0]["mass_ratio"], "peak": result["low_pass_peak_load_n"], "stripping": stripping, "stripping_nominal": stripping_nominal,
              "held": keys_of(name)["inflation.mass"] == "infinite", "energy": 100 * result["energy_residual"], "usable": result["usable"],
+             "strain": 100 * result["max_cloth_strain"], "parachute": 100 * loads["parachute_mass_kg"] / (
+                 loads["parachute_mass_kg"] + loads["payload_mass_kg"]),
              "to_peak": openings.travelled(folder, velocity, result["low_pass_peak_time_s"]) / diameter, "handbook": factors(loads),
              "constant": loads["stages"][0]["filling_constant"], "added_mass": result["added_mass_kg"],
              "half": openings.travelled(folder, velocity, openings.half_area_time(folder)) / diameter,
@@ -167,12 +169,12 @@ def row_of(name, m, done):
             number(m["way"]) if m["filled"] else "not filled", number(m["nominal"]), number(m["exponent"], 1), number(m["half"]), number(m["to_peak"]),
             number(m["peak"], 0), number(m["on_area"]), number(factor(name, m, done)), number(m["on_handbook"]),
             *(number(methods.get(method), 3) for method in ("Pflanz", "Ludtke", "momentum-impulse")),
-            number(None if m["held"] else m["with_computed"]), number(m["energy"])]
+            number(None if m["held"] else m["with_computed"]), number(m["strain"], 0), "" if m["held"] else number(m["parachute"], 0), number(m["energy"])]
 
 
 HEAD = ["changed", "cloth CFM", "R_m", "filling distance / D0", "v t_f / D0", "area exponent j", "distance to half of the largest area / D0",
         "distance to the peak / D0", "peak N", "peak over q S0", "X_1", "peak over infinite-mass load of the handbook", "X_1 Pflanz", "X_1 Ludtke",
-        "X_1 momentum-impulse", "X_1 Pflanz with computed t_f and j", "energy residual %"]
+        "X_1 momentum-impulse", "X_1 Pflanz with computed t_f and j", "largest strain of the cloth %", "parachute, share of the mass %", "energy residual %"]
 
 
 def of(done, group, cloth, value):
