@@ -65,10 +65,11 @@ BOTH = {
     "size-3": ("size", "3 m", size(3, 13.1), 4.6),
     "size-10": ("size", "10 m", size(10, 509, 24, "nylon-line-type-iii", "nylon-tape-1000-lbf"), 6.5),
 }
+LONGER = {"size-3-100": 6.5}  # durations of single rows that had not filled [D0]
 # name: (case, cloth CFM, group, subject, changed keys, duration as a distance at the speed of deployment [D0])
 ROWS = {"c-9": (C_9, "100", "handbook", "C-9 class, lines first", {"flow.speed_m_s": "60", **LINES_FIRST}, 5.5)}
-ROWS.update({f"{name}-{cloth}": (FLAT, cloth, group, subject, {**keys, **changed}, distance) for cloth, changed in CLOTHS.items()
-             for name, (group, subject, keys, distance) in BOTH.items()})
+ROWS.update({f"{name}-{cloth}": (FLAT, cloth, group, subject, {**keys, **changed}, LONGER.get(f"{name}-{cloth}", distance))
+             for cloth, changed in CLOTHS.items() for name, (group, subject, keys, distance) in BOTH.items()})
 
 
 def nominal(name):
