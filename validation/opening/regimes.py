@@ -72,6 +72,12 @@ ROWS.update({f"{name}-{cloth}": (FLAT, cloth, group, subject, {**keys, **changed
              for cloth, changed in CLOTHS.items() for name, (group, subject, keys, distance) in BOTH.items()})
 
 
+# The container of the default strip force (1.6 N), and slower ones.
+ROWS.update({f"{name}-3": (FLAT, "3", "container", subject, {**CLOTHS["3"], "deployment.container": "bag", **keys}, distance)
+             for name, subject, keys, distance in (("bag", "bag", {}, 4.6), ("bag-7", "bag, strip force 7 N", {"deployment.strip_force_n": "7"}, 6.0),
+                                                   ("bag-8", "bag, strip force 8 N", {"deployment.strip_force_n": "8"}, 7.5))})
+
+
 def nominal(name):
     """Nominal diameter [m] and speed of deployment [m/s] of a row."""
     case, *_, keys, _ = ROWS[name]
@@ -123,14 +129,13 @@ def measures(options, name, result):
     """Quantities of a row, from the result of its opening and from the handbook."""
     folder, (diameter, velocity) = folder_of(options, name), nominal(name)
     loads = handbook(options, name)
-    stripping = stripping_nominal = None
+    outside = None
     if result.get("deployment"):
         phases = {phase["phase"]: phase for phase in result["deployment"]["phases"]}
         velocity = phases["canopy leaves the bag"]["payload_speed_m_s"]
-        stripping = (phases["canopy is out"]["path_m"] - phases["lines stretch"]["path_m"]) / diameter
-        stripping_nominal = velocity * (phases["canopy is out"]["time_s"] - phases["lines stretch"]["time_s"]) / diameter
+        outside = velocity * (phases["canopy is out"]["time_s"] - phases["canopy leaves the bag"]["time_s"]) / diameter
     dynamic = loads["density_kg_m3"] / 2 * velocity ** 2
-    found = {"mass_ratio": loads["stages"][0]["mass_ratio"], "peak": result["low_pass_peak_load_n"], "stripping": stripping, "stripping_nominal": stripping_nominal,
+    found = {"mass_ratio": loads["stages"][0]["mass_ratio"], "peak": result["low_pass_peak_load_n"], "outside": outside,
              "held": keys_of(name)["inflation.mass"] == "infinite", "energy": 100 * result["energy_residual"], "usable": result["usable"],
              "strain": 100 * result["max_cloth_strain"], "parachute": 100 * loads["parachute_mass_kg"] / (
                  loads["parachute_mass_kg"] + loads["payload_mass_kg"]),
@@ -232,16 +237,11 @@ def plot_load(done):
 
 
 def deployed_table(done):
-    """Distances from line stretch of the rows with a deployment: without and with that of leaving the container."""
-    rows = []
-    for name, m in done.items():
-        if m["stripping"] is None:
-            continue
-        for subject, way, stripping in (("path", "way", "stripping"), ("v t_f", "nominal", "stripping_nominal")):
-            total = m[way] + m[stripping] if m["filled"] else None
-            rows.append([ROWS[name][3], subject, number(m[way]), number(m[stripping]), number(total), number(m["constant"])])
-    return tables.table(["deployment", "distance", "coupled opening alone, D0", "canopy leaves its container, D0", "sum, D0",
-                         "n of the handbook"], rows)
+    """Filling distances from line stretch of the rows with a container, and the time until the canopy has left it."""
+    rows = [[ROWS[name][3], ROWS[name][1], number(m["outside"]), number(m["way"]) if m["filled"] else "not filled", number(m["nominal"]), number(m["constant"]),
+             number(m["on_area"])] for name, m in done.items() if m["outside"] is not None]
+    return tables.table(["container", "cloth CFM", "v t / D0 until the canopy is outside", "filling distance / D0", "v t_f / D0", "n of the handbook",
+                         "peak over q S0"], rows)
 
 
 def without_result(failures):
@@ -266,8 +266,8 @@ def write(options, done, failures):
         "canopy of 1.76 m of the same cloth that is fixed in the stream at 20 m/s. "
         f"Handbook: C_D {DRAG_COEFFICIENT:g}, `ripstop load --angle 0`, load over infinite-mass load; its filling distance is "
         f"{base['constant']:.2f} D0 at 20 m/s. Computed t_f and j: `ripstop load` with `--filling-constant` v t_f / D0 and `--filling-exponent` j of that opening.", "",
-        "The table gives the filling distance of deployments from a container. The first column is the distance if the canopy leaves its "
-        "container at once. The sum is the distance from line stretch if it fills after it has left the container. The handbook defines n with v t_f.", "",
+        "Rows with a container: the canopy opens while it [leaves it](../theory/deployment.md#coupled-opening); distances are from line "
+        "stretch, with the speed v there. The handbook defines n with v t_f.", "",
         *deployed_table(done),
         "![Filling distance and X_1 over the mass ratio](regimes-mass.svg)", "",
         "![Peak and filling distance over speed and size](regimes-load.svg)"]
