@@ -79,7 +79,7 @@ class UsedRuns : public testing::Test {
     write_csv(claimed->own("history.csv"), {{"time_s", "load_mean_n", "load_largest_n"},
                                             {{0.1, 30, 40}, {0.2, 200, 230}, {0.3, 120, 130}}});
     write_file(claimed->own("result.json"),
-               R"({"title": "an opening", "peak_load_n": 230, "filling_distance_diameters": 5.0,
+               R"({"title": "an opening", "peak_load_n": 230, "filling_time_s": 0.5,
                    "area_growth_exponent": 2.0})");
     claimed->seal();
   }

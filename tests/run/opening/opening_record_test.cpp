@@ -128,22 +128,37 @@ TEST_F(OpeningRecords, FillingIsThatOfTheResultAndRefusedWhereThereIsNone) {
                 .find("the canopy has not filled"),
             std::string::npos);
   write(opening_history, nullptr, nullptr,
-        R"({"peak_load_n": 500, "filling_distance_diameters": 6.5, "area_growth_exponent": 2.5})");
+        R"({"peak_load_n": 500, "filling_time_s": 0.5, "area_growth_exponent": 2.5})");
   const ComputedFilling filling = computed_filling(folder, resolve(given));
-  EXPECT_EQ(filling.constant, 6.5);
+  const double n = 0.5 * given.flow.speed_m_s.value() / nominal_diameter(given.parachute);
+  EXPECT_NEAR(filling.constant, n, 1e-12 * n);
   EXPECT_EQ(filling.exponent, 2.5);
   // At every speed: the handbook's value for low speeds is not that of this canopy.
   LoadRequest asked;
   asked.payload_mass = 2.4, asked.speed = 20, asked.filling_from = folder;
   const LoadResult loads = run_load(resolve(given), asked);
-  EXPECT_NEAR(loads.stages.at(0).filling_time, 6.5 * loads.nominal_diameter / 20, 1e-12);
+  EXPECT_NEAR(loads.stages.at(0).filling_time, n * loads.nominal_diameter / 20, 1e-12);
   EXPECT_EQ(loads.stages.at(0).caution, "");
+}
+
+// n is t_f times the speed at line stretch, as in the handbook, and not the shorter path of a payload that decelerates.
+TEST_F(OpeningRecords, FillingOfAPayloadHasTheSpeedAtItsStart) {
+  given.payload.mass_kg = 2;
+  given.inflation.mass = InflationSettings::Mass::payload;
+  given.inflation.air = AirModel::coupled;
+  const CsvTable air{{"time_s", "speed_m_s", "path_m", "height_lost_m"},
+                     {{0.1, 8, 0.9, 0.9}, {0.2, 5, 1.6, 1.6}, {0.4, 4, 2.4, 2.4}}};
+  write(opening_history, nullptr, &air,
+        R"({"peak_load_n": 500, "filling_time_s": 0.4, "filling_distance_diameters": 1.2,
+            "area_growth_exponent": 2})");
+  EXPECT_NEAR(computed_filling(folder, resolve(given)).constant, 0.4 * 8 / nominal_diameter(given.parachute),
+              1e-12);
 }
 
 // The largest safe speed is searched without reading the folders at each speed.
 TEST_F(OpeningRecords, TheLoadsAtSeveralSpeedsNeedOneReadingOfTheFolders) {
   write(opening_history, nullptr, nullptr,
-        R"({"peak_load_n": 500, "filling_distance_diameters": 6.5, "area_growth_exponent": 2.5,
+        R"({"peak_load_n": 500, "filling_time_s": 0.5, "area_growth_exponent": 2.5,
             "warnings": ["coarse"]})");
   LoadRequest asked;
   asked.payload_mass = 2.4, asked.path_angle = 0, asked.opening = asked.filling_from = folder;

@@ -124,11 +124,14 @@ ComputedFilling computed_filling(const fs::path& folder, const Settings& resolve
     const auto found = result.find(key);
     return found != result.end() && found->is_number() ? found->get<double>() : 0;
   };
-  const ComputedFilling filling{number("filling_distance_diameters"), number("area_growth_exponent")};
+  const Stream stream = stream_of(settings_of_run(folder), folder);
+  const double speed = stream.speed.empty() ? stream.deployment_speed : stream.speed.front();
+  const ComputedFilling filling{number("filling_time_s") * speed / nominal_diameter(resolved.parachute()),
+                                number("area_growth_exponent")};
   if (!(filling.constant > 0 && filling.exponent > 0))
     throw Error(
         ExitCode::usage,
-        fmt::format("{}: has no filling distance: the canopy has not filled (increase "
+        fmt::format("{}: has no filling time: the canopy has not filled (increase "
                     "inflation.duration_s), or the inflation is one under uniform pressure (inflation.air)",
                     folder.string()));
   return filling;

@@ -21,8 +21,8 @@ struct OpeningRecord {
 /// Error(usage) for a folder without one or one of another parachute, Error(bad_data) for a damaged one.
 OpeningRecord opening_record(const std::filesystem::path& folder, const Settings& resolved);
 
-/// Filling of such an opening as its result.json has it, see filling_of(): n and j of C_D S = (s / (n D0))^j times the
-/// drag area when it is full, s the distance through the air.
+/// Filling of such an opening, see filling_of(): n = v t_f / D0 with the speed v at its start, and j of
+/// C_D S = (t / t_f)^j times the drag area when it is full.
 struct ComputedFilling {
   double constant = 0, exponent = 0;
 };
