@@ -49,7 +49,7 @@ void print_deployment(const Settings& resolved) {
   const PackedParachute packed = packed_parachute(resolved);
   print_text(
       "deployment: container {:.3g} kg, its drag area {:.3g} m2; canopy {:.3g} kg, lines {:.3g} kg; strip "
-      "force {:.3g} N, line force {:.3g} N\n",
+      "force {:.3g} N, line force {:.3g} N; each phase with its start\n",
       packed.bag_mass, packed.bag_drag_area, packed.canopy_mass, packed.lines_mass, packed.strip_force,
       packed.line_force);
   for (const DeploymentPhase& phase : deployment->phases)
@@ -148,10 +148,12 @@ void print_peaks(const InflationResult& r) {
                     1000 * *r.filling_time, *r.filling_distance, *r.growth_exponent));
   if (r.finite_mass_factor)
     row("finite-mass factor", fmt::format("{:.3f}: peak over the infinite-mass load", *r.finite_mass_factor));
-  for (const MethodLoad& m : r.handbook)
+  for (const MethodLoad& m : r.handbook) {
+    if (m.method == infinite_mass_method) continue;  // above
     row(("  handbook: " + m.method).c_str(),
         fmt::format("{:.1f} N{}{}", m.load, m.applies ? "" : ", does not apply",
                     m.note.empty() ? "" : ": " + m.note));
+  }
 }
 
 void print_steady_load(const InflationResult& r) {

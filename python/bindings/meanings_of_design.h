@@ -121,7 +121,7 @@ RecoveryStage.highest_finite_mass_load_n: largest opening load of the applicable
 RecoveryStage.lowest_drag_coefficient: lower end of the range of the drag coefficient in descent on S0
 RecoveryStage.highest_drag_coefficient: upper end of the range of the drag coefficient in descent on S0
 RecoveryStage.drag_coefficient_range_from: source of this range
-RecoveryStage.lowest_design_load_n: design load at the lowest airspeed, minus the uncertainty of the load
+RecoveryStage.lowest_design_load_n: lower end of the range of the design load (guide/recovery.md)
 RecoveryStage.highest_design_load_n: design load at the highest airspeed, plus the uncertainty of the load
 RecoveryStage.load_uncertainty: relative uncertainty of the load at one airspeed, from the range of the drag coefficient and the scatter of openings
 RecoveryStage.snatch_load_n: snatch load by [deployment] of its case, at the highest airspeed; None: without [deployment]
@@ -181,8 +181,8 @@ Size.margins: margins of safety under the design load
 Size.margins_under_highest_design_load: margins of safety under the highest design load
 Load.margins: margins of safety under the design load; for lines, riser and hardware under the snatch load if it is larger
 Load.margins_under_highest_design_load: margins of safety under the highest design load; for lines, riser and hardware under the snatch load if it is larger
-Size.opening_load_n: largest opening load of the applicable methods
-Size.opening_load_low_n: smallest opening load of the applicable methods
+Size.opening_load_n: largest load of the applicable handbook methods; not the design load
+Size.opening_load_low_n: smallest load of the applicable handbook methods
 Size.lowest_finite_mass_load_n: smallest opening load of the applicable methods without the infinite-mass load; None: there is none
 Size.highest_finite_mass_load_n: largest opening load of the applicable methods without the infinite-mass load; None: there is none
 Size.checks: runs of the verification, in order

@@ -18,8 +18,8 @@ void describe(Fields& fields, PayloadKeys& payload) {
           "choice of a default tape and the filling time of `ripstop export` are for this speed. With "
           "inflation.mass = \"payload\" the opening has flow.speed_m_s instead.")
       .absent(
-          "without mass_kg flow.speed_m_s, else the larger of 20 m/s and three times the rate of descent; "
-          "`ripstop load` needs a speed");
+          "with mass_kg the larger of 20 m/s and three times the rate of descent, without it flow.speed_m_s; "
+          "`ripstop load` then needs --speed");
   fields.number(
       "drag_area_m2", payload.drag_area_m2, from(0).up_to(1e4),
       "Drag area C_D S of the payload in the undisturbed stream: it carries a part of the weight in `ripstop "

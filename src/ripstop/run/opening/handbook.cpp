@@ -108,15 +108,15 @@ std::optional<std::string> handbook_disagreement(double computed, std::optional<
       rounded(std::max(computed, highest->load)));
 }
 
-std::optional<std::string> above_infinite_mass(double computed, double infinite_mass) {
+std::optional<std::string> above_infinite_mass(double computed, double infinite_mass, bool payload) {
   if (computed <= (1 + opening_scatter) * infinite_mass) return {};
   return fmt::format(
       "the computed opening load of {} N is {:.2g} times the infinite-mass load of {} N (the design load of "
-      "ripstop "
-      "load). The C_x of the handbook is a mean of measured openings with cloth of other permeability. "
-      "Design for at "
-      "least {} N at this speed and mass, unless the load of your parachute is measured",
-      rounded(computed), computed / infinite_mass, rounded(infinite_mass), rounded(computed));
+      "ripstop load). The C_x of the handbook is a mean of measured openings with cloth of other "
+      "permeability. Design for at least {} N at this speed {}, unless the load of your parachute is "
+      "measured",
+      rounded(computed), computed / infinite_mass, rounded(infinite_mass), rounded(computed),
+      payload ? "and mass" : "with a payload that hardly decelerates");
 }
 
 }  // namespace ripstop::inline run

@@ -45,7 +45,7 @@ std::optional<std::string> handbook_disagreement(double computed, std::optional<
                                                  const std::vector<MethodLoad>& methods);
 
 /// Warning if the peak `computed` [N] of a coupled opening is above the `infinite_mass` load of the handbook [N] by more
-/// than opening_scatter; else nothing.
-std::optional<std::string> above_infinite_mass(double computed, double infinite_mass);
+/// than opening_scatter; else nothing. `payload`: the opening has one, and is not at constant speed.
+std::optional<std::string> above_infinite_mass(double computed, double infinite_mass, bool payload);
 
 }  // namespace ripstop::inline run

@@ -214,7 +214,7 @@ void take_quality(InflationResult& r, const Settings& resolved, const Opening& s
   const double peak = r.smooth_peak.value_or(r.peak_load);
   if (const auto text = handbook_disagreement(peak, distance, r.handbook)) judgement.add({*text});
   if (solver.air() && r.estimate.load)
-    if (const auto text = above_infinite_mass(peak, *r.estimate.load)) judgement.add({*text});
+    if (const auto text = above_infinite_mass(peak, *r.estimate.load, flies(solver))) judgement.add({*text});
   if (!solver.air() && has_default_damping(solver.problem().settings))
     judgement.add({fmt::format(
         "the peak load is not a prediction in uniform-pressure inflation: {}. Calibrate the damping on a "
