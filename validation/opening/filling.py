@@ -7,7 +7,6 @@ Coupled openings of the flat circular canopy of 1.76 m (validation/flight/flat-c
 coarse cells. One parameter is changed at a time. Writes docs/tables/filling.md and filling.svg. A finished run is not
 computed again, and an interrupted one continues. `--rows base,mass-10` computes these rows only.
 """
-import argparse
 import math
 import pathlib
 import sys
@@ -92,12 +91,7 @@ def plot(options, done):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--ripstop", type=pathlib.Path, default=ROOT / "build/bin/ripstop")
-    parser.add_argument("--runs", type=pathlib.Path, default=ROOT / "runs/filling")
-    parser.add_argument("--threads", type=int, default=2)
-    parser.add_argument("--rows", default=",".join(ROWS), help="names of rows, comma-separated")
-    options = parser.parse_args()
+    options = openings.arguments(__doc__, "filling", ROWS).parse_args()
     done = {}
     for name in options.rows.split(","):
         try:

@@ -1,4 +1,5 @@
 """Coupled openings of the studies of this folder: runs them, and reads histories from their run folders."""
+import argparse
 import csv
 import json
 import pathlib
@@ -11,6 +12,16 @@ UNUSABLE = 4  # exit code of a run that has a result with a caution
 
 class Failed(Exception):
     """A run that failed or was refused, with the reason that the program gives."""
+
+
+def arguments(description, name, rows):
+    """Parser with the options of every study; its runs are below runs/`name`."""
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--ripstop", type=pathlib.Path, default=ROOT / "build/bin/ripstop")
+    parser.add_argument("--runs", type=pathlib.Path, default=ROOT / "runs" / name)
+    parser.add_argument("--threads", type=int, default=2)
+    parser.add_argument("--rows", default=",".join(rows), help="names of rows, comma-separated")
+    return parser
 
 
 def keys_of(keys):

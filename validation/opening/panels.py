@@ -49,8 +49,7 @@ def write(path, panels, legend):
     drawn = [part for panel in panels for part in panel.drawn]
     for i, (colour, dashes, marker, words) in enumerate(legend):
         x, y = MARGIN + (i % 2) * (WIDTH + 90), low + 18 * (i // 2)
-        if marker != "alone":
-            drawn.append(f'<path d="M{x} {y}h30" stroke="{colour}" stroke-width="1.5" stroke-dasharray="{dashes}"/>')
+        drawn.append(f'<path d="M{x} {y}h30" stroke="{colour}" stroke-width="1.5" stroke-dasharray="{dashes}"/>')
         if marker:
             drawn.append(f'<circle cx="{x + 15}" cy="{y}" r="4" stroke="{colour}" stroke-width="1.5" '
                          f'fill="{"#fff" if marker == "open" else colour}"/>')

@@ -8,7 +8,6 @@ Coupled openings of flat circular canopies on the default cells with 2,500 cloth
 and an interrupted one continues. `--rows c-9,base-100` computes these rows only. `--tables` runs nothing: page and plots
 have the finished rows.
 """
-import argparse
 import json
 import math
 import pathlib
@@ -140,7 +139,7 @@ def measures(options, name, result):
              "strain": 100 * result["max_cloth_strain"], "parachute": 100 * loads["parachute_mass_kg"] / (
                  loads["parachute_mass_kg"] + loads["payload_mass_kg"]),
              "to_peak": openings.travelled(folder, velocity, result["low_pass_peak_time_s"]) / diameter, "handbook": factors(loads),
-             "constant": loads["stages"][0]["filling_constant"], "added_mass": result["added_mass_kg"],
+             "constant": loads["stages"][0]["filling_constant"],
              "half": openings.travelled(folder, velocity, openings.half_area_time(folder)) / diameter,
              "on_area": result["low_pass_peak_load_n"] / (dynamic * math.pi / 4 * diameter ** 2),
              "filled": result["filled"], "way": None, "nominal": None, "exponent": None, "with_computed": None}
@@ -277,11 +276,7 @@ def write(options, done, failures):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--ripstop", type=pathlib.Path, default=ROOT / "build/bin/ripstop")
-    parser.add_argument("--runs", type=pathlib.Path, default=ROOT / "runs/regimes")
-    parser.add_argument("--threads", type=int, default=2)
-    parser.add_argument("--rows", default=",".join(ROWS), help="names of rows, comma-separated")
+    parser = openings.arguments(__doc__, "regimes", ROWS)
     parser.add_argument("--tables", action="store_true", help="run nothing, and write page and plots of the finished rows")
     options = parser.parse_args()
     done, failures = {}, {}

@@ -59,6 +59,7 @@ const DeploymentPhase& start_of_opening(const Deployment& deployment, const Sett
   return *deployment.phase(lines_first(opening) ? canopy_leaves : lines_stretch);
 }
 
+/// The opening begins at that state, within the container if its lines come first.
 void start_from(const Deployment& deployment, const Settings& opening, InflationProblem& problem) {
   if (deployment.stopped)
     throw Error(

@@ -175,7 +175,7 @@ const std::map<std::string_view, Wording>& known() {  // NOLINT(readability-func
       {"margin_of_safety", {"margin of safety", ""}},
       {"smallest_margin_of_safety", {"margin of safety of this member", ""}},
       {"smallest_margin_member", {"weakest member under the highest design load", ""}},
-      {"opening_load_n", {"largest opening load, infinite mass included", "N"}},
+      {"opening_load_n", {"largest opening load of the applicable methods", "N"}},
       {"opening_load_low_n", {"smallest opening load of the applicable methods", "N"}},
       {"lowest_finite_mass_load_n", {"smallest opening load of the finite-mass methods", "N"}},
       {"highest_finite_mass_load_n", {"largest opening load of the finite-mass methods", "N"}},

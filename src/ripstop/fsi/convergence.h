@@ -24,8 +24,8 @@ void enter_shape_change(SteadyIteration& now, const std::vector<Vec3>& before,
 /// for shape and ledger are wider by the scatter of the means, which is not known here.
 std::vector<std::string> unmet_criteria(const SteadyIteration& last, const CouplingSettings& settings);
 
-/// The changes of drag and shape in the last iteration with their limits, in words. The
-/// drags of runs that differ by rounding only differ by about its limit. The drag of a mean in time has no limit.
+/// The changes of drag and shape in the last iteration with their limits, in words. The drag of a mean in time has no
+/// limit.
 std::string last_changes(const SteadyIteration& last, const CouplingSettings& settings);
 
 class SteadyConvergence {

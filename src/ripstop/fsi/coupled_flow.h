@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "ripstop/cloth/cloth.h"
 #include "ripstop/cloth/step_memory.h"
 #include "ripstop/core/members.h"
 #include "ripstop/flow/flow.h"
@@ -25,9 +26,8 @@ struct AirProblem {
   FlowProblem flow;  // one sheet, the canopy; its surface is left to the opening
   double courant = 0.5;
   std::shared_ptr<FlowEngine> engine = {};
-  std::optional<Payload> payload = {};  // absent: the riser's end is held
-  std::optional<ContainerPath> container =
-      {};  // that the canopy leaves; absent: it is outside from the start
+  std::optional<Payload> payload = {};          // absent: the riser's end is held
+  std::optional<ContainerPath> container = {};  // absent: the canopy is outside from the start
 };
 
 /// Values of the last step that the next one needs.

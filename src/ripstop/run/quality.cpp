@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include "ripstop/core/words.h"
@@ -34,6 +36,16 @@ std::string compared(const QualityLimit& limit, double value, bool refused) {
     return fmt::format("{} (values {} {}{} cause a warning)", shown, side, warn, unit);
   return fmt::format("{} (values {} {}{} cause a warning, {} {}{} the result is not usable)", shown, side,
                      warn, unit, side, refuse, unit);
+}
+
+/// The part of a warning before "the result must not be used"; absent: it does not have these words.
+std::optional<std::string> before_refusal(const std::string& warning) {
+  const std::size_t end = warning.find(std::string("the result ") + refused_text);
+  if (end == std::string::npos) return {};
+  std::string reason = warning.substr(0, end);
+  while (!reason.empty() && std::string_view(" ,:;").find(reason.back()) != std::string_view::npos)
+    reason.pop_back();
+  return reason;
 }
 
 }  // namespace
@@ -83,22 +95,16 @@ const QualityLimit& quality_limit(std::string_view key) {
 }
 
 std::string reason_of_refusal(const std::string& warning) {
-  const std::size_t end = warning.find(std::string("the result ") + refused_text);
-  if (end == std::string::npos) return warning.find(refused_text) == std::string::npos ? "" : warning;
-  std::string reason = warning.substr(0, end);
-  while (!reason.empty() && std::string_view(" ,:;").find(reason.back()) != std::string_view::npos)
-    reason.pop_back();
-  return reason.empty() ? warning : reason;
+  const auto reason = before_refusal(warning);
+  if (!reason) return warning.find(refused_text) == std::string::npos ? "" : warning;
+  return reason->empty() ? warning : *reason;
 }
 
 std::string without_refusal(const std::string& warning) {
-  const std::string words = std::string("the result ") + refused_text;
-  const std::size_t at = warning.find(words);
-  if (at == std::string::npos) return warning;
-  std::string text = warning.substr(0, at);
-  while (!text.empty() && std::string_view(" ,:;").find(text.back()) != std::string_view::npos)
-    text.pop_back();
-  text += warning.substr(at + words.size());
+  const auto reason = before_refusal(warning);
+  if (!reason) return warning;
+  const std::string text =
+      *reason + warning.substr(warning.find(refused_text, reason->size()) + std::strlen(refused_text));
   return text.empty() ? warning : text;
 }
 

@@ -34,11 +34,19 @@ struct OpeningRecords : testing::Test {
     write_file(claimed->own("result.json"), result);
     claimed->seal();
   }
+  /// The opening is one with a payload, whose air.csv is needed.
+  void carry_payload() {
+    given.payload.mass_kg = 2;
+    given.inflation.mass = InflationSettings::Mass::payload;
+    given.inflation.air = AirModel::coupled;
+  }
   std::string refusal(ExitCode code, const Case& asked) const {
     return refusal_of([&] { opening_record(folder, resolve(asked)); }, code);
   }
 };
 
+const CsvTable flight{{"time_s", "speed_m_s", "path_m", "height_lost_m"},
+                      {{0.1, 8, 0.9, 0.9}, {0.2, 5, 1.6, 1.6}, {0.4, 4, 2.4, 2.4}}};
 const CsvTable opening_history{{"time_s", "load_mean_n", "load_largest_n"},
                                {{0.1, -6, 1}, {0.2, 30, 99}, {0.2, 500, 500}, {0.3, 120, 130}}};
 
@@ -64,14 +72,10 @@ TEST_F(OpeningRecords, TakesTheLowPassedLoadWhereThereIsOne) {
 
 // The speed halves and the path is no longer speed times time: both are those of air.csv, in between in proportion.
 TEST_F(OpeningRecords, OfAPayloadHasTheSpeedAndThePathOfItsFlight) {
-  given.payload.mass_kg = 2;
-  given.inflation.mass = InflationSettings::Mass::payload;
-  given.inflation.air = AirModel::coupled;
-  const CsvTable air{{"time_s", "speed_m_s", "path_m", "height_lost_m"},
-                     {{0.1, 8, 0.9, 0.9}, {0.2, 5, 1.6, 1.6}, {0.4, 4, 2.4, 2.4}}};
+  carry_payload();
   const CsvTable history{{"time_s", "load_mean_n", "load_largest_n"},
                          {{0.1, 76.8, 80}, {0.2, 30, 31}, {0.3, 12.15, 13}}};
-  write(history, nullptr, &air);
+  write(history, nullptr, &flight);
   const OpeningRecord record = opening_record(folder, resolve(given));
   const double way[] = {0.9, 1.6, 2}, area[] = {2, 2, 1};  // q = 38.4, 15 and 12.15 Pa
   for (int i = 0; i < 3; ++i) {
@@ -143,12 +147,8 @@ TEST_F(OpeningRecords, FillingIsThatOfTheResultAndRefusedWhereThereIsNone) {
 
 // n is t_f times the speed at line stretch, as in the handbook, and not the shorter path of a payload that decelerates.
 TEST_F(OpeningRecords, FillingOfAPayloadHasTheSpeedAtItsStart) {
-  given.payload.mass_kg = 2;
-  given.inflation.mass = InflationSettings::Mass::payload;
-  given.inflation.air = AirModel::coupled;
-  const CsvTable air{{"time_s", "speed_m_s", "path_m", "height_lost_m"},
-                     {{0.1, 8, 0.9, 0.9}, {0.2, 5, 1.6, 1.6}, {0.4, 4, 2.4, 2.4}}};
-  write(opening_history, nullptr, &air,
+  carry_payload();
+  write(opening_history, nullptr, &flight,
         R"({"peak_load_n": 500, "filling_time_s": 0.4, "filling_distance_diameters": 1.2,
             "area_growth_exponent": 2})");
   EXPECT_NEAR(computed_filling(folder, resolve(given)).constant, 0.4 * 8 / nominal_diameter(given.parachute),

@@ -147,7 +147,7 @@ void take_filling(InflationResult& r, const Settings& resolved, const Opening& s
   if (start_area < folded_share * nominal_area(resolved.parachute())) r.filled = filling.has_value();
   if (!filling) return;
   r.growth_exponent = filling->exponent;
-  double path = filling->time * solver.problem().air->flow.air.speed();
+  double path = filling->time * opening_speed(resolved, solver);
   if (flies(solver))
     for (const AirRow& row : history.air)
       if (row.time <= filling->time) path = row.path;
@@ -155,16 +155,16 @@ void take_filling(InflationResult& r, const Settings& resolved, const Opening& s
 }
 
 /// A case made by `size` has the rate of descent as its speed.
-std::vector<std::string> slow_opening_warnings(const Settings& resolved) {
-  const FlowSettings& stream = resolved.flow();
+std::vector<std::string> slow_opening_warnings(const Settings& resolved, const Opening& solver) {
+  const double speed = opening_speed(resolved, solver);
   if (!resolved.written().payload.mass_kg) return {};
-  const double rate = payload_first_speed(resolved.written(), stream.density_kg_m3);
-  if (stream.speed_m_s > slow_opening * rate) return {};
+  const double rate = payload_first_speed(resolved.written(), resolved.flow().density_kg_m3);
+  if (speed > slow_opening * rate) return {};
   return {fmt::format(
       "the opening begins at {} m/s, which is about the rate of descent of its payload ({} m/s), so its load "
       "is "
       "too small for a deployment: give the airspeed at line stretch with --speed or flow.speed_m_s",
-      rounded(stream.speed_m_s, 3), rounded(rate, 3))};
+      rounded(speed, 3), rounded(rate, 3))};
 }
 
 /// Cells of the flow that are too coarse for the canopy; a uniform pressure has none.
@@ -221,7 +221,7 @@ void take_quality(InflationResult& r, const Settings& resolved, const Opening& s
         "measured peak (ripstop calibrate damping), or set inflation.air = \"coupled\"",
         limit_of_damping(solver.problem().settings))});
   judgement.add(r.source.warnings);
-  judgement.add(slow_opening_warnings(resolved));
+  judgement.add(slow_opening_warnings(resolved, solver));
   judgement.add(mesh_warnings(resolved));
   if (solver.air()) judgement.add(air_warnings(resolved));
   judgement.add(strain_warnings(resolved, r.stress.strain));
@@ -304,7 +304,7 @@ std::string to_json(const InflationResult& result) {
 }
 
 std::vector<std::string> opening_warnings(const Settings& resolved, const Opening& solver) {
-  std::vector<std::string> warnings = slow_opening_warnings(resolved);
+  std::vector<std::string> warnings = slow_opening_warnings(resolved, solver);
   for (std::string& text : coarse_cells_warnings(resolved, solver)) warnings.push_back(std::move(text));
   return warnings;
 }
