@@ -142,6 +142,11 @@ void print_peaks(const InflationResult& r) {
       r.estimate.load ? fmt::format("{:.1f} N = C_x {:g} times {:.1f} N ({})", *r.estimate.load,
                                     r.estimate.coefficient, *r.estimate.drag, r.estimate.drag_from)
                       : std::string("not known: the opening has no steady load and no drag was given"));
+  if (r.outside)
+    row("container",
+        r.container_left
+            ? fmt::format("the canopy has left it {:.1f} ms after the start", 1000 * *r.container_left)
+            : fmt::format("{:.0f} % of the canopy's length are outside at the end", 100 * *r.outside));
   if (r.filling_distance)
     row("filled",
         fmt::format("{:.1f} ms after the start, {:.2f} nominal diameters; area grows as (t/t_f)^{:.2f}",

@@ -23,26 +23,84 @@ InflationProblem opening_from_a_container() {
   return problem;
 }
 
-TEST(Container, TheShareOutsideIsLinearBetweenItsTimes) {
-  const ContainerPath path{{0, 0.1, 0.3}, {0, 0.5, 1}};
-  EXPECT_EQ(path.outside(0), 0);
-  EXPECT_DOUBLE_EQ(path.outside(0.05), 0.25);
-  EXPECT_DOUBLE_EQ(path.outside(0.2), 0.75);
-  EXPECT_EQ(path.outside(0.3), 1);
-  EXPECT_EQ(path.outside(5), 1);
+/// Of 1 kg with the canopy of 1 m in it.
+Container heavy_container() {
+  return {.mass = 0.9, .canopy_mass = 0.1, .canopy_length = 1, .strip_force = 20};
+}
+
+/// Motion after `duration` [s] behind cloth whose speed is `cloth_speed` at a time [s].
+template <class Speed>
+ContainerMotion moved(ContainerMotion motion, const Container& container, double duration, Speed cloth_speed,
+                      double density = 1.2) {
+  constexpr int steps = 10000;
+  for (int n = 0; n < steps && motion.farthest < container.canopy_length; ++n)
+    move_container(motion, container, cloth_speed((n + 0.5) * duration / steps), duration / steps, density,
+                   0);
+  return motion;
+}
+
+TEST(ContainerMotion, WithoutStripForceItsDragLeavesTheCanopyBehindThePayload) {
+  Container container = heavy_container();
+  container.canopy_mass = 1e-9, container.strip_force = 0, container.drag_area = 0.1;
+  const double v = 20, t = 0.15, c = 0.5 * 1.2 * container.drag_area / container.mass;
+  const ContainerMotion end = moved({.speed = v}, container, t, [&](double) { return v; });
+  EXPECT_NEAR(end.speed, v / (1 + c * v * t), 1e-3);
+  EXPECT_NEAR(end.farthest, v * t - std::log(1 + c * v * t) / c, 1e-3);
+}
+
+TEST(ContainerMotion, AStripForceAboveItsDragKeepsItAtThePayload) {
+  Container container = heavy_container();
+  container.drag_area = 0.05;  // 12 N
+  const ContainerMotion held = moved({.speed = 20}, container, 1, [](double) { return 20.0; });
+  EXPECT_NEAR(held.speed, 20, 1e-9);
+  EXPECT_NEAR(held.farthest, 0, 1e-9);
+  container.strip_force = 10;
+  EXPECT_GT(moved({.speed = 20}, container, 1, [](double) { return 20.0; }).farthest, 0.3);
+}
+
+TEST(ContainerMotion, ItsForceIsTheMomentumThatItGains) {
+  Container container = heavy_container();
+  container.canopy_mass = 0;
+  ContainerMotion motion{.speed = 15};
+  double impulse = 0;
+  for (int n = 0; n < 100; ++n) impulse += 1e-3 * move_container(motion, container, 20, 1e-3, 1.2, 0);
+  EXPECT_NEAR(impulse, container.mass * (motion.speed - 15), 1e-12);
+  EXPECT_NEAR(impulse, 20 * 0.1, 1e-12);  // the strip force all the time
+}
+
+TEST(ContainerMotion, NoClothReturnsIntoItAndItIsFreeUntilTheClothIsTautAgain) {
+  const Container container = heavy_container();
+  // The payload brakes from 20 to 10 m/s, below the container, and later moves at 30 m/s.
+  const ContainerMotion first = moved({.speed = 18}, container, 0.05, [](double) { return 20.0; });
+  const ContainerMotion slack = moved(first, container, 0.1, [](double) { return 10.0; });
+  EXPECT_GT(first.farthest, 0);
+  EXPECT_EQ(slack.farthest, first.farthest);
+  EXPECT_LT(slack.apart, first.apart);
+  EXPECT_EQ(slack.speed, first.speed);  // no drag area, and no force
+  const ContainerMotion taut = moved(slack, container, 0.2, [](double) { return 30.0; });
+  EXPECT_GT(taut.farthest, first.farthest);
+  EXPECT_GT(taut.speed, slack.speed);
+}
+
+TEST(ContainerMotion, WithoutMassItIsStoppedByItsDrag) {
+  Container container = heavy_container();
+  container.mass = 0, container.drag_area = 1;
+  const ContainerMotion end = moved({.speed = 20}, container, 1, [](double) { return 20.0; });
+  EXPECT_GE(end.farthest, container.canopy_length);
+  EXPECT_TRUE(std::isfinite(end.speed));
 }
 
 TEST(Container, ConfinesTheClothBeyondTheShareOutside) {
   const CoupledOpening opening(opening_from_a_container());
   const std::vector<Vec3>& folded = opening.folded().positions;
-  const Container container({{0, 1}, {0, 1}}, opening.mesh(), folded);
-  EXPECT_TRUE(container.guided(1).empty());
+  const ContainedCloth contained(opening.mesh(), folded);
+  EXPECT_TRUE(contained.beyond(1).empty());
   double skirt = 1e9, vent = -1e9;
   for (const Patch& patch : opening.mesh().patches)
     for (int node = patch.first_node; node < patch.first_node + patch.rows * patch.columns; ++node)
       skirt = std::min(skirt, folded[node].z), vent = std::max(vent, folded[node].z);
   std::vector<int> inside;
-  const std::vector<int> held = container.guided(0.4);
+  const std::vector<int> held = contained.beyond(0.4);
   for (int node = 0; node < opening.mesh().node_count(); ++node)
     if (folded[node].z > skirt + 0.4 * (vent - skirt)) inside.push_back(node);
   EXPECT_GT(held.size(), 100u);
@@ -72,8 +130,7 @@ Sideways moved_sideways(const Opening& opening, const ClothState& state, const s
 TEST(Container, ConfinesClothUnderPressureAndTheEnergyBalanceCloses) {
   const CoupledOpening opening(opening_from_a_container());
   const Cloth& cloth = opening.cloth();
-  const Container container({{0, 1}, {0, 1}}, opening.mesh(), opening.folded().positions);
-  const std::vector<int> held = container.guided(0.3);
+  const std::vector<int> held = ContainedCloth(opening.mesh(), opening.folded().positions).beyond(0.3);
   Loads loads{std::vector<double>(opening.mesh().cell_count(), 300.0), {}, held};
   const ClothState start = opening.start().cloth;
   const double dt = 0.5 * stability_limit(cloth, start).stable_step;
@@ -99,19 +156,39 @@ TEST(Container, ConfinesClothUnderPressureAndTheEnergyBalanceCloses) {
 TEST(Container, ACoupledOpeningHasThatOfItsDeploymentAndOpensFromTheSkirt) {
   InflationProblem problem = opening_from_a_container();
   ASSERT_TRUE(problem.air->container);
-  const ContainerPath path = *problem.air->container;
-  EXPECT_EQ(path.share.front(), 0);
-  EXPECT_EQ(path.share.back(), 1);
-  EXPECT_GT(path.time.back(), 0);
-  problem.air->container = ContainerPath{{0, 0.04}, {0, 1}};
+  Container& container = *problem.air->container;
+  EXPECT_GT(container.mass, 0);
+  EXPECT_GT(container.relative_speed, 0);
+  container.relative_speed = 0.7 * container.canopy_length / 0.03, container.drag_area = 0,
+  container.strip_force = 0;
   problem.settings.duration_s = 0.03;
   CoupledOpening opening(problem);
   InflationState state = opening.start();
   while (state.blocks < opening.blocks()) opening.advance(state);
-  const Container container(*problem.air->container, opening.mesh(), opening.folded().positions);
-  const Sideways moved = moved_sideways(opening, state.cloth, container.guided(state.cloth.time));
+  const ContainerMotion& motion = *state.air.container;
+  EXPECT_FALSE(motion.left);
+  const double outside = motion.farthest / container.canopy_length;
+  EXPECT_GT(outside, 0.4);
+  EXPECT_LT(outside, 0.9);
+  const Sideways moved = moved_sideways(
+      opening, state.cloth, ContainedCloth(opening.mesh(), opening.folded().positions).beyond(outside));
   EXPECT_LT(moved.inside, 1e-12);
   EXPECT_GT(moved.outside, 0.02);
+}
+
+TEST(Container, TheCanopyThatBrakesThePayloadDelaysItsOwnExit) {
+  const auto outside_after = [](double payload_mass) {
+    InflationProblem problem = opening_from_a_container();
+    Container& container = *problem.air->container;
+    container.relative_speed = 0.5 * container.canopy_length / 0.03, container.drag_area = 0;
+    problem.air->payload = Payload{payload_mass};
+    problem.settings.duration_s = 0.03;
+    CoupledOpening opening(problem);
+    InflationState state = opening.start();
+    while (state.blocks < opening.blocks()) opening.advance(state);
+    return state.air.container->farthest;
+  };
+  EXPECT_LT(outside_after(0.3), 0.95 * outside_after(1000));
 }
 
 }  // namespace

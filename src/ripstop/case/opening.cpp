@@ -36,18 +36,10 @@ double pressure_of(const Settings& opening, const LoadSource& source, int thread
       .pressure;
 }
 
-/// How the canopy leaves its container after `start`.
-ContainerPath container_path(const Deployment& deployment, const DeploymentPhase& start,
-                             double canopy_length) {
-  const double end = deployment.phase(canopy_out)->time;
-  ContainerPath path{{0}, {0}};
-  for (const DeploymentRow& row : deployment.rows) {
-    if (!(row.time > start.time) || !(row.time < end)) continue;
-    path.time.push_back(row.time - start.time);
-    path.share.push_back(row.emerged / canopy_length);
-  }
-  path.time.push_back(end - start.time), path.share.push_back(1);
-  return path;
+/// The container at `start`.
+Container container_of(const PackedParachute& packed, const DeploymentPhase& start) {
+  return {packed.bag_mass,      packed.bag_drag_area, packed.canopy_mass,
+          packed.canopy_length, packed.strip_force,   start.payload_speed - start.bag_speed};
 }
 
 bool lines_first(const Settings& opening) {
@@ -71,8 +63,7 @@ void start_from(const Deployment& deployment, const Settings& opening, Inflation
   const DeploymentPhase& start = start_of_opening(deployment, opening);
   problem.air->flow.air.velocity =
       (start.payload_speed / problem.air->flow.air.speed()) * problem.air->flow.air.velocity;
-  if (lines_first(opening))
-    problem.air->container = container_path(deployment, start, packed_parachute(opening).canopy_length);
+  if (lines_first(opening)) problem.air->container = container_of(packed_parachute(opening), start);
 }
 
 /// Payload::density_ratio in the standard atmosphere, from the height that the case gives.

@@ -191,6 +191,8 @@ const std::map<std::string_view, Wording>& known() {  // NOLINT(readability-func
       {"finite_mass_factor", {"finite-mass factor X₁", ""}},
       {"filling_distance_diameters", {"filling distance over nominal diameter", ""}},
       {"filled", {"whether the canopy has filled", ""}},
+      {"container_left_s", {"time at which the canopy has left its container", "s"}},
+      {"canopy_outside", {"share of the canopy's length outside the container at the end", ""}},
       {"area_growth_exponent", {"exponent of the area's growth over time", ""}},
       {"design_load_n", {"design load", "N"}},
       {"design_load_from", {"source of the design load", ""}},

@@ -1,28 +1,40 @@
 #include "ripstop/fsi/container.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
-#include <utility>
 
-#include "ripstop/core/error.h"
+#include "ripstop/flight/deployment.h"
 
 namespace ripstop::inline fsi {
 
-double ContainerPath::outside(double at) const {
-  const auto next = std::upper_bound(time.begin(), time.end(), at);
-  if (next == time.begin()) return share.front();
-  const auto n = static_cast<std::size_t>(next - time.begin());
-  if (n == time.size()) return share.back();
-  const double part = (at - time[n - 1]) / (time[n] - time[n - 1]);
-  return share[n - 1] + part * (share[n] - share[n - 1]);
+namespace {
+
+constexpr double lightest = 1e-9;  // a container without mass that is almost empty [kg]
+
+}  // namespace
+
+// m v' = F - c |v| v + m g, implicit in time, so that a light container follows the balance of force and drag.
+double move_container(ContainerMotion& motion, const Container& container, double cloth_speed, double length,
+                      double density, double gravity) {
+  const double inside = container.canopy_mass -
+                        emerged_mass(container.canopy_mass, container.canopy_length, motion.farthest, true);
+  const double mass = std::max(container.mass + inside, lightest);
+  const double c = 0.5 * density * container.drag_area;
+  const double momentum = mass * (motion.speed + length * gravity);
+  const auto speed_under = [&](double force) {
+    const double driven = momentum + length * force;
+    return 2 * driven / (mass + std::sqrt(mass * mass + 4 * length * c * std::abs(driven)));
+  };
+  const bool taut = motion.apart >= motion.farthest;
+  const double alone = speed_under(0);
+  motion.speed = taut ? std::clamp(cloth_speed, alone, speed_under(container.strip_force)) : alone;
+  motion.apart += length * (cloth_speed - motion.speed);
+  motion.farthest = std::clamp(motion.apart, motion.farthest, container.canopy_length);
+  return (mass * motion.speed - momentum) / length + c * std::abs(motion.speed) * motion.speed;
 }
 
-Container::Container(ContainerPath path, const Mesh& mesh, const std::vector<Vec3>& folded)
-    : path_(std::move(path)) {
-  if (path_.time.empty() || path_.time.size() != path_.share.size() || path_.share.back() != 1 ||
-      !std::is_sorted(path_.time.begin(), path_.time.end()) ||
-      !std::is_sorted(path_.share.begin(), path_.share.end()))
-    throw Error(ExitCode::usage, "the canopy must leave its container in increasing times, and as a whole");
+ContainedCloth::ContainedCloth(const Mesh& mesh, const std::vector<Vec3>& folded) {
   double skirt = std::numeric_limits<double>::infinity(), vent = -skirt;
   for (const Patch& patch : mesh.patches) {
     for (int node = patch.first_node; node < patch.first_node + patch.rows * patch.columns; ++node) {
@@ -33,11 +45,10 @@ Container::Container(ContainerPath path, const Mesh& mesh, const std::vector<Vec
   for (const Vec3& x : folded) from_skirt_.push_back((x.z - skirt) / (vent - skirt));
 }
 
-std::vector<int> Container::guided(double time) const {
-  const double outside = path_.outside(time);
+std::vector<int> ContainedCloth::beyond(double share) const {
   std::vector<int> inside;
   for (std::size_t node = 0; node < from_skirt_.size(); ++node)
-    if (from_skirt_[node] > outside) inside.push_back(static_cast<int>(node));
+    if (from_skirt_[node] > share) inside.push_back(static_cast<int>(node));
   return inside;
 }
 

@@ -26,8 +26,8 @@ struct AirProblem {
   FlowProblem flow;  // one sheet, the canopy; its surface is left to the opening
   double courant = 0.5;
   std::shared_ptr<FlowEngine> engine = {};
-  std::optional<Payload> payload = {};          // absent: the riser's end is held
-  std::optional<ContainerPath> container = {};  // absent: the canopy is outside from the start
+  std::optional<Payload> payload = {};      // absent: the riser's end is held
+  std::optional<Container> container = {};  // absent: the canopy is outside from the start
 };
 
 /// Values of the last step that the next one needs.
@@ -39,7 +39,8 @@ struct AirMemory {
   double work = 0;  // done by the part of the flow's load that is not pressure, so far [J]
   long long steps = 0;  // of the flow
   PayloadMotion flight;
-  double added_mass = 0;  // of the canopy when it was last computed [kg]
+  std::optional<ContainerMotion> container = {};  // of AirProblem::container
+  double added_mass = 0;                          // of the canopy when it was last computed [kg]
 };
 
 template <Of<AirMemory> T, class Visit>
@@ -54,6 +55,7 @@ void each_member(T& m, Visit&& visit) {
   visit("path", m.flight.path);
   visit("angle", m.flight.angle);
   visit("fallen", m.flight.fallen);
+  visit("container", m.container);
   visit("added_mass", m.added_mass);
 }
 

@@ -75,7 +75,7 @@ CoupledOpening::CoupledOpening(InflationProblem problem)
       air_(std::make_unique<CoupledFlow>(*problem.air, mesh(), &team())) {
   check_width(folded(), problem.air->flow.grid);
   check_folds(folded(), cells_of(mesh()), problem.air->flow.grid);
-  if (problem.air->container) container_.emplace(*problem.air->container, mesh(), folded().positions);
+  if (problem.air->container) contained_.emplace(mesh(), folded().positions);
 }
 
 InflationState CoupledOpening::start() const {
@@ -107,19 +107,51 @@ int CoupledOpening::rows_of_next_step(const InflationState& state, int left) {
   return std::max(1, left / steps_in(left * row_duration(), longest, state.cloth.time));
 }
 
+void CoupledOpening::deploy_at_start(AirMemory& air) const {
+  const AirProblem& given = *problem().air;
+  PayloadMotion& flight = air.flight;
+  flight.speed = given.flow.air.speed();
+  if (given.payload)
+    deploy(flight, *given.payload, flight.speed,
+           given.flow.air.density * density_ratio(*given.payload, flight.fallen));
+  if (given.container) air.container = ContainerMotion{flight.speed - given.container->relative_speed};
+}
+
+/// The nodes in the container.
+std::vector<int> CoupledOpening::contained(const AirMemory& air) const {
+  if (!contained_ || air.container->left) return {};
+  return contained_->beyond(air.container->farthest / problem().air->container->canopy_length);
+}
+
+/// Over a step of `length` [s], at whose beginning the nodes lay at `before`: the force between container and cloth [N].
+double CoupledOpening::advance_container(const std::vector<int>& inside, const std::vector<Vec3>& before,
+                                         double length, InflationState& state) const {
+  const auto& payload = problem().air->payload;
+  const Container& container = *problem().air->container;
+  const PayloadMotion& flight = state.air.flight;
+  const std::vector<Vec3> after = positions(state.cloth, cloth());
+  double moved = 0, mass = 0;
+  for (const int node : inside)
+    moved += mesh().mass[node] * (after[node].z - before[node].z), mass += mesh().mass[node];
+  const double cloth_speed = flight.speed + 0.5 * length * flight.acceleration - moved / mass / length;
+  const double gravity = payload ? gravity_along_path(*payload, flight) : 0;
+  ContainerMotion& motion = *state.air.container;
+  const double force = move_container(motion, container, cloth_speed, length, air_->density(), gravity);
+  if (motion.farthest >= container.canopy_length) motion.left = state.cloth.time;
+  return force;
+}
+
 AirRow CoupledOpening::step(InflationState& state, int rows, std::vector<HistoryRow>& history) {
   const double length = rows * row_duration();
   const long long first = state.blocks * rows_per_block() + static_cast<long long>(history.size());
   const FlowProblem& flow = problem().air->flow;
   const auto& payload = problem().air->payload;
   PayloadMotion& flight = state.air.flight;
-  if (state.air.steps == 0) {
-    flight.speed = flow.air.speed();
-    if (payload)
-      deploy(flight, *payload, flight.speed, flow.air.density * density_ratio(*payload, flight.fallen));
-  }
+  if (state.air.steps == 0) deploy_at_start(state.air);
   Surroundings surroundings = payload ? in_flight(flight, *payload, length) : Surroundings{};
-  if (container_) surroundings.guided = container_->guided(state.cloth.time);
+  surroundings.guided = contained(state.air);
+  const std::vector<int>& inside = surroundings.guided;
+  const std::vector<Vec3> before = inside.empty() ? std::vector<Vec3>{} : positions(state.cloth, cloth());
   const double speed = flight.speed + length * flight.acceleration;
 
   const CoupledStep taken =
@@ -134,8 +166,10 @@ AirRow CoupledOpening::step(InflationState& state, int rows, std::vector<History
   row.momentum_gap = taken.flow.momentum_gap.z, row.mass_defect = taken.flow.mass_defect;
   row.residual_traction = taken.residual_traction, row.added_mass = state.air.added_mass;
 
-  // Move the payload under the pull of the riser.
-  if (payload) move_payload(flight, *payload, mean_load(history, rows), length, flow.air.density);
+  // Move the payload under the pull of the riser, and under that of the container, which the cloth in it does not transmit.
+  double pull = mean_load(history, rows);
+  if (!inside.empty()) pull += advance_container(inside, before, length, state);
+  if (payload) move_payload(flight, *payload, pull, length, flow.air.density);
   row.path = flight.path, row.fallen = flight.fallen;
   row.angle = flight.angle * 180 / std::numbers::pi;
   return row;

@@ -23,11 +23,15 @@ class CoupledOpening : public Opening {
 
  private:
   AirRow step(InflationState& state, int rows, std::vector<HistoryRow>& history);
+  void deploy_at_start(AirMemory& air) const;
+  std::vector<int> contained(const AirMemory& air) const;
+  double advance_container(const std::vector<int>& inside, const std::vector<Vec3>& before, double length,
+                           InflationState& state) const;
   void compute_added_mass(InflationState& state) const;
   int rows_of_next_step(const InflationState& state, int left);
 
   std::unique_ptr<CoupledFlow> air_;
-  std::optional<Container> container_;
+  std::optional<ContainedCloth> contained_;  // where the problem has a container
 };
 
 }  // namespace ripstop::inline fsi

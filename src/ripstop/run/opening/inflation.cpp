@@ -135,12 +135,16 @@ void compare_with_handbook(InflationResult& r, const Settings& resolved, const L
   r.handbook = handbook_methods(resolved, speed);
 }
 
-/// The deployment before the opening, and how the canopy has filled.
+/// The deployment before the opening, and how the canopy has left its container and filled.
 void take_filling(InflationResult& r, const Settings& resolved, const Opening& solver,
-                  const InflationHistory& history) {
+                  const InflationState& state, const InflationHistory& history) {
   r.filling_time = r.summary.filling_time;
   if (!solver.air()) return;
   r.deployment = deployment_of(resolved);
+  if (const auto& container = state.air.container) {
+    r.container_left = container->left;
+    r.outside = container->farthest / solver.problem().air->container->canopy_length;
+  }
   const auto filling = filling_of(history.frames);
   r.filling_time = filling ? std::optional(filling->time) : std::nullopt;
   const double start_area = history.frames.empty() ? 0 : history.frames.front().size.projected_area;
@@ -202,6 +206,12 @@ void take_quality(InflationResult& r, const Settings& resolved, const Opening& s
   }
   Judgement judgement = judge(values);
   judgement.add(margin_warnings(r.margins));
+  if (r.outside && !r.container_left)
+    judgement.add({fmt::format(
+        "the canopy has not left its container within inflation.duration_s = {:g} s: {:.0f} % of its length "
+        "are outside. The opening load may occur later; increase the duration, or decrease "
+        "deployment.strip_force_n",
+        solver.problem().settings.duration_s, 100 * *r.outside)});
   if (!r.filled.value_or(true))
     judgement.add(
         {fmt::format("the canopy has not filled within inflation.duration_s = {:g} s: peak loads are "
@@ -240,7 +250,7 @@ InflationResult result_of(const Settings& resolved, const LoadSource& source, co
   r.settings = solver.problem().settings;
   take_peaks(r, state, history, start_up);
   take_steady_load(r, source, solver, history, start_up);
-  take_filling(r, resolved, solver, history);
+  take_filling(r, resolved, solver, state, history);
   r.impulse = state.impulse;
   if (!solver.air()) r.pressure = solver.problem().pressure;
   for (const AirRow& row : history.air)

@@ -39,10 +39,12 @@ struct InflationResult {
   std::optional<Deployment> deployment;  // of a case with [deployment]: until the canopy leaves its bag
   /// Of a coupled inflation by its projected area, see filling_of(); under a uniform pressure the time at which the
   /// load first reaches the steady one.
-  std::optional<double> filling_time;          // [s]
-  std::optional<double> filling_distance;      // over the nominal diameter
-  std::optional<double> growth_exponent;       // j of area = (t / t_f)^j
-  std::optional<bool> filled;                  // of a coupled inflation from a folded start
+  std::optional<double> filling_time;      // [s]
+  std::optional<double> filling_distance;  // over the nominal diameter
+  std::optional<double> growth_exponent;   // j of area = (t / t_f)^j
+  std::optional<bool> filled;              // of a coupled inflation from a folded start
+  std::optional<double> container_left;    // time at which the canopy has left its container [s]
+  std::optional<double> outside;  // share of its length that has at the end; absent without container
   std::optional<double> end_speed, end_angle;  // of a payload that flies [m/s], of its path [deg]
   std::optional<double> height_lost;           // by it since deployment [m]
   LoadSource source;
@@ -90,6 +92,8 @@ void each_member(T& r, Visit&& visit) {
   visit("filling_distance_diameters", r.filling_distance);
   visit("area_growth_exponent", r.growth_exponent);
   visit("filled", r.filled);
+  visit("container_left_s", r.container_left);
+  visit("canopy_outside", r.outside);
   visit("settling_time_s", r.summary.settling_time);
   visit("steady_load_n", r.steady_load, or_null);
   visit("last_load_n", r.summary.last_load);

@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Of InflationState's list of members: one more with every change of it.
-constexpr int opening_format = 8;
+constexpr int opening_format = 9;
 
 /// Writes every file of the opening before it calls the next observer.
 class InflationFolder : public InflationObserver {
