@@ -112,6 +112,15 @@ TEST(Opening, WrinklesUnlessAMaterialOrTheOpeningPreventsIt) {
   EXPECT_EQ(reinforcement_tape(opening)->buckling_strain, 0.01);
 }
 
+TEST(Opening, OfCoupledAirDampsItsClothUnlessTheCaseGivesTheDamping) {
+  Case given = checked(made());
+  EXPECT_FALSE(opening_case(given).inflation.cloth_damping_s);
+  given.inflation.air = AirModel::coupled;
+  EXPECT_EQ(opening_case(given).inflation.cloth_damping_s, 1e-5);
+  given.inflation.cloth_damping_s = 0;
+  EXPECT_EQ(opening_case(given).inflation.cloth_damping_s, 0);
+}
+
 TEST(Opening, TakesItsPressureFromOneSource) {
   Case given = checked(made());
   EXPECT_THROW(load_source(resolve(given)), Error);

@@ -69,9 +69,11 @@ void describe_damping(Fields& fields, InflationSettings& inflation) {
   fields.number("line_damping_s", inflation.line_damping_s, from(0).up_to(1e-3),
                 "Relative damping of lines and tape as a time: C = line_damping_s K_1 w / L0 with the tape "
                 "width w, or w = 1 for lines (assumed).");
-  fields.number("cloth_damping_s", inflation.cloth_damping_s, from(0).up_to(1e-3),
-                "Relative damping of the cloth springs as a time: C = cloth_damping_s K_1 w / L0 with the "
-                "spring width w (assumed: none).");
+  fields
+      .number("cloth_damping_s", inflation.cloth_damping_s, from(0).up_to(1e-3),
+              "Relative damping of the cloth springs as a time: C = cloth_damping_s K_1 w / L0 with the "
+              "spring width w.")
+      .absent("1e-5 in coupled inflation, 0 in other computations");
   fields.number("cloth_damping_step_share", inflation.cloth_damping_step_share, from(0.05).up_to(0.999),
                 "Smallest ratio of the stability limits with and without damping of the cloth. Where the "
                 "ratio would be smaller, the damping of the cell is reduced.");

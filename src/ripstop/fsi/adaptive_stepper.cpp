@@ -12,8 +12,6 @@
 namespace ripstop::inline fsi {
 namespace {
 
-// How often one span is tried before its divergence is reported.
-constexpr int most_tries = 4;
 // Rise of the stable step that makes the step longer.
 constexpr double clear_rise = 1.1;
 

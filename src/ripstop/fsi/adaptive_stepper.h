@@ -27,6 +27,8 @@ class AdaptiveStepper {
   /// its step continues and must be stable. renewed: before a span of few steps, too; only the step taken must be
   /// stable.
   enum class Step { kept, renewed };
+  /// How often a span is computed, each time with a smaller step, before its divergence is reported.
+  static constexpr int most_tries = 4;
 
   /// Steps are `step_fraction` of the stability limit; a row lasts `row` [s].
   AdaptiveStepper(Step kind, double step_fraction, double row, ThreadTeam& team)

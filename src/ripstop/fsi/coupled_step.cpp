@@ -32,6 +32,20 @@ auto or_diverged(double time, const CoupledFlow& air, const Work& work) {
   }
 }
 
+/// Of the cloth under the last load, with smaller steps where it diverges.
+ClothMotion predicted_motion(const AdaptiveStepper& stepper, const Cloth& cloth, const Loads& last_load,
+                             double length, ThreadTeam& team, const InflationState& state) {
+  double step = stepper.allowed_step(state, cloth);
+  for (int tries = 1;; ++tries, step /= 2) {
+    const int steps = steps_in(length, step, state.cloth.time);
+    try {
+      return predict_motion(state.cloth, cloth, last_load, length, steps, team, stepper.memory());
+    } catch (const Error& error) {
+      if (error.code() != ExitCode::diverged || tries == AdaptiveStepper::most_tries) throw;
+    }
+  }
+}
+
 CoupledStep unguarded_step(CoupledFlow& air, const AdaptiveStepper& stepper, const Cloth& cloth,
                            const RowSpan& span, const Surroundings& surroundings, ThreadTeam& team,
                            InflationState& state) {
@@ -39,11 +53,8 @@ CoupledStep unguarded_step(CoupledFlow& air, const AdaptiveStepper& stepper, con
   const std::vector<Vec3> before = positions(state.cloth, cloth);
   CoupledStep taken;
 
-  // Predict the motion of the cloth under the last load.
-  const double step = stepper.allowed_step(state, cloth);
-  const int steps = steps_in(length, step, state.cloth.time);
-  const ClothMotion predicted = predict_motion(state.cloth, cloth, air.last_load(surroundings, state.air),
-                                               length, steps, team, stepper.memory());
+  const ClothMotion predicted =
+      predicted_motion(stepper, cloth, air.last_load(surroundings, state.air), length, team, state);
 
   // Step the flow about it, transfer its load.
   taken.flow = air.step(before, predicted, length, surroundings, state.air);

@@ -95,7 +95,7 @@ CanopyMesh flying_mesh(const FlightProblem& problem) {
   mesh.fixed.clear();
   const double time = damping_time(mesh, problem);
   damp_springs(mesh, std::max(time, problem.cloth.line_damping_s),
-               std::max(time, problem.cloth.cloth_damping_s));
+               std::max(time, problem.cloth.cloth_damping_s.value_or(0)));
   return mesh;
 }
 

@@ -38,7 +38,8 @@ struct InflationSettings {
   double damping_n_s_m3 = 8.2;  // C_a a unit area of cloth, [NFM] Eq. 20
   double quadratic_damping_n_s2_m4 = 0;
   double line_damping_s = 1e-6;  // of lines and tape: C = this times K_1 (w) / L0 of every spring
-  double cloth_damping_s = 0;    // of the cloth, likewise; less in cells where it would set the step
+  /// Of the cloth, likewise; less in cells where it would set the step. Absent: none; opening_case() has the default.
+  std::optional<double> cloth_damping_s = {};
 
   double cloth_damping_step_share = 0.97;  // of the stable step without it, that the cloth's damping leaves
 

@@ -80,10 +80,11 @@ OpeningCloth::OpeningCloth(const CanopyMesh& as_cut, const InflationSettings& s,
     : folded_(folded_start(as_cut, {required_radius(s), s.folds, s.slack_m}, symmetry, team)),
       reefing_(std::move(reefing)) {
   mesh_ = with_creases(as_cut, folded_);
-  damp_springs(mesh_, s.line_damping_s, s.cloth_damping_s);
+  const double cloth_damping = s.cloth_damping_s.value_or(0);
+  damp_springs(mesh_, s.line_damping_s, cloth_damping);
   ClothOptions options{linear, s.damping_n_s_m3, s.quadratic_damping_n_s2_m4};
   if (s.contact_pa > 0) options.contact = ContactOptions{s.contact_pa, s.contact_friction, folded_.positions};
-  if (s.cloth_damping_s > 0)
+  if (cloth_damping > 0)
     viscosity_limit_ = limit_viscosity(mesh_, options, folded_.positions, s.cloth_damping_step_share);
   add_reefed_stages(s, options);
   stages_.push_back(make_cloth(mesh_, options));
