@@ -33,7 +33,7 @@ ARCH_CHECK := gtest benchmark python pybind11 python-numpy python-jsonschema
 
 export PATH := /usr/bin:$(PATH)
 
-.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-symmetry validate-openings validate-filling validate-regimes validate-flights validate-stability validate-clusters judge torture test-sizes test-studio test-tutorials test-drawings test-slurm test-hosts test-debian12 test-debian13 scaling docs reference report-libraries format format-check install-build install wheel tarball test-portable container package release clean
+.PHONY: help deps check-deps build demo check room sanitize sanitize-thread fuzz mutants coverage tidy bench validate validate-ojf validate-families validate-families-in-time validate-symmetry validate-openings validate-filling validate-regimes validate-convergence validate-flights validate-stability validate-clusters judge torture test-sizes test-studio test-tutorials test-drawings test-slurm test-hosts test-debian12 test-debian13 scaling docs reference report-libraries format format-check install-build install wheel tarball test-portable container package release clean
 
 help:  ## This list
 	@grep -hE '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -173,6 +173,9 @@ validate-filling: build  ## Openings of one canopy with one parameter changed at
 
 validate-regimes: build  ## Openings over mass, size, speed and cloth compared with the handbook, into docs/tables: an hour; resumable
 	@/usr/bin/python3 validation/opening/regimes.py --ripstop build/bin/ripstop
+
+validate-convergence: build  ## Mean peak of eight openings on finer cloth and cells, into docs/tables: two hours; resumable
+	@/usr/bin/python3 validation/opening/convergence.py --ripstop build/bin/ripstop
 
 validate-flights: build  ## Free flights of eleven families, vents, cloths and grids compared with Knacke's values, into docs/tables: three hours; resumable
 	@/usr/bin/python3 validation/flight/campaign.py --ripstop build/bin/ripstop

@@ -35,6 +35,20 @@ def rows_of(name):
     return [[cell.strip() for cell in line.strip().strip("|").split("|")] for line in lines[1:]]
 
 
+def replace_rows(name, rows, keys):
+    """Replaces the rows of a page of docs/tables that have the same number of cells and the same first `keys` cells."""
+    page = ROOT / "docs/tables" / f"{name}.md"
+    new = {(len(row), *row[:keys]): row for row in rows}
+    lines = []
+    for line in page.read_text().splitlines():
+        cells = [cell.strip() for cell in line.strip().strip("|").split("|")] if line.startswith("| ") else []
+        row = new.pop((len(cells), *cells[:keys]), None)
+        lines.append("| " + " | ".join(row) + " |" if row else line)
+    if new:
+        raise ValueError(f"{page.name} has no row of {', '.join(' '.join(key[1:]) for key in new)}")
+    page.write_text("\n".join(lines) + "\n")
+
+
 def runs_below(folder):
     """The run.json of all runs in a folder."""
     return [json.loads(path.read_text()) for path in sorted(pathlib.Path(folder).rglob("run.json"))]

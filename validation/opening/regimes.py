@@ -130,9 +130,10 @@ def measures(options, name, result):
     loads = handbook(options, name)
     outside = None
     if result.get("deployment"):
-        phases = {phase["phase"]: phase for phase in result["deployment"]["phases"]}
-        velocity = phases["canopy leaves the bag"]["payload_speed_m_s"]
-        outside = velocity * (phases["canopy is out"]["time_s"] - phases["canopy leaves the bag"]["time_s"]) / diameter
+        velocity = {phase["phase"]: phase for phase in result["deployment"]["phases"]}["canopy leaves the bag"]["payload_speed_m_s"]
+    if "canopy_outside" in result:
+        left = result.get("container_left_s")
+        outside = number(velocity * left / diameter) if left else f"not outside ({100 * result['canopy_outside']:.0f} % at the end)"
     dynamic = loads["density_kg_m3"] / 2 * velocity ** 2
     found = {"mass_ratio": loads["stages"][0]["mass_ratio"], "peak": result["low_pass_peak_load_n"], "outside": outside,
              "held": keys_of(name)["inflation.mass"] == "infinite", "energy": 100 * result["energy_residual"], "usable": result["usable"],
@@ -235,12 +236,15 @@ def plot_load(done):
         *((colour, "2 3", "open", f"filling distance / D0, {cloth} CFM") for cloth, colour in COLOURS.items())])
 
 
+def deployed_rows(done):
+    return [[ROWS[name][3], ROWS[name][1], m["outside"], number(m["way"]) if m["filled"] else "not filled", number(m["nominal"]), number(m["constant"]),
+             number(m["on_area"])] for name, m in done.items() if m["outside"] is not None]
+
+
 def deployed_table(done):
     """Filling distances from line stretch of the rows with a container, and the time until the canopy has left it."""
-    rows = [[ROWS[name][3], ROWS[name][1], number(m["outside"]), number(m["way"]) if m["filled"] else "not filled", number(m["nominal"]), number(m["constant"]),
-             number(m["on_area"])] for name, m in done.items() if m["outside"] is not None]
     return tables.table(["container", "cloth CFM", "v t / D0 until the canopy is outside", "filling distance / D0", "v t_f / D0", "n of the handbook",
-                         "peak over q S0"], rows)
+                         "peak over q S0"], deployed_rows(done))
 
 
 def without_result(failures):
@@ -288,6 +292,9 @@ def main():
     print("\n".join(tables.table(HEAD, [row_of(name, m, done) for name, m in done.items()])), failures)
     if options.tables or {*done, *failures} == set(ROWS):
         write(options, done, failures)
+    elif not failures:
+        tables.replace_rows("regimes", [row_of(name, m, done) for name, m in done.items()] + deployed_rows(done), 2)
+        print("replaced in docs/tables/regimes.md; the first line of the page and the plots are unchanged")
 
 
 if __name__ == "__main__":
