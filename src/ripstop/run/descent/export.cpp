@@ -23,14 +23,12 @@ namespace {
 void take_deployment_speed(const FinishedSteady& run, const std::optional<double>& given,
                            ExportedParachute& p) {
   const PayloadKeys& payload = run.resolved.payload();
-  const std::optional<double>& known = given ? given : payload.deployment_speed_m_s;
+  const auto known = deployment_speed(payload, given);
   p.speed_assumed = !known && payload.mass_kg;
-  p.deployment_speed = known             ? *known
+  p.deployment_speed = known             ? known->speed
                        : p.speed_assumed ? usual_deployment_speed(run.result.speed)
                                          : run.result.speed;
-  p.deployment_speed_from = given   ? "given"
-                            : known ? "payload.deployment_speed_m_s of the case"
-                                    : "speed of the run";
+  p.deployment_speed_from = known ? known->from : "speed of the run";
   if (p.speed_assumed)
     p.deployment_speed_from = fmt::format(
         "assumed, the larger of {:g} m/s and {:g} times the rate of descent of {:.3g} m/s, as ripstop size",
