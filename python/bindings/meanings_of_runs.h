@@ -162,6 +162,7 @@ DescentRow.speed_uncertainty_m_s: its uncertainty, from that of the drag area
 DescentRow.time_to_ground_s: time from this height to the ground; None: at or below the ground
 DescentRow.time_uncertainty_s: its uncertainty
 ExportedParachute.drag_area_m2: drag area C_D S0
+ExportedParachute.drag_area_mean_m2: mean of the drag area for a dispersion analysis
 ExportedParachute.drag_area_deviation_m2: standard deviation of the drag area for a dispersion analysis
 ExportedParachute.drag_coefficient: drag coefficient on the area named by drag_coefficient_on
 ExportedParachute.drag_coefficient_on: name of the attribute that is its reference area
