@@ -17,6 +17,8 @@
 #include "ripstop/case/payload.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
+#include "ripstop/core/quantity.h"
+#include "ripstop/core/visible.h"
 #include "warnings.h"
 
 namespace ripstop::cli {
@@ -27,11 +29,34 @@ namespace fs = std::filesystem;
 struct ExportArguments {
   std::string format, trigger = "apogee";
   fs::path run, out, flight, drogue, drogue_flight;
-  std::optional<double> deployment_speed, drogue_speed;
+  std::optional<double> deployment_speed, drogue_speed, bay_diameter;
   std::string drogue_trigger = "apogee";
   std::vector<std::string> reefing;
   bool force = false, drogue_released = false;
 };
+
+/// "apogee", or a height with or without its unit, in metres.
+CLI::Option* add_trigger(CLI::App& command, const std::string& option, std::string& trigger,
+                         const std::string& help) {
+  return command
+      .add_option_function<std::string>(
+          option,
+          [&trigger, option](const std::string& text) {
+            trigger = text;
+            if (text == "apogee") return;
+            const TypedNumber height = read_typed(text, "m");
+            if (!height.refusal.empty() || !(height.value > 0))
+              throw Error(
+                  ExitCode::usage,
+                  fmt::format("{} = {}: must be apogee, or a height above the ground, above 0 m, as in "
+                              "{} 300 or {} '1000 ft'",
+                              option, visible(text), option, option));
+            trigger = fmt::format("{}", height.value);
+          },
+          help + ": apogee, or a height above the ground [m]")
+      ->type_name("apogee|NUMBER")
+      ->default_str(trigger);
+}
 
 ExportedParachute exported_run(const fs::path& run, std::optional<double> speed, const fs::path& flight,
                                const char* option) {
@@ -63,6 +88,13 @@ int export_run(const ExportArguments& options) {
   recovery.stages.push_back(
       {exported_run(options.run, options.deployment_speed, options.flight, "--deployment-speed"),
        options.trigger});
+  if (options.bay_diameter && options.format == "rocketpy")
+    throw Error(
+        ExitCode::usage,
+        "--bay-diameter: a RocketPy file has no packed size; leave the option out, or export openrocket, "
+        "openrocket-design or json");
+  if (options.bay_diameter)
+    for (ExportedStage& stage : recovery.stages) pack_into_bay(*options.bay_diameter, stage.parachute);
   for (const std::string& text : options.reefing)
     recovery.stages.back().reefing.push_back(parse_reefed_stage(text));
   const std::string text = text_of(options.format, recovery);
@@ -96,8 +128,7 @@ void add_export(CLI::App& app, int& status) {
   add_run_folder(*command, "--flight", options->flight,
                  "Folder of a finished run of ripstop fly of this parachute; its coefficient in descent "
                  "replaces the axial one");
-  command->add_option("--trigger", options->trigger,
-                      "Deployment trigger: apogee, or a height above the ground [m]");
+  add_trigger(*command, "--trigger", options->trigger, "Deployment trigger");
   add_number(*command, "--deployment-speed", options->deployment_speed, above(0).up_to(1000),
              "Airspeed at line stretch, which sets the filling time (lag) [m/s]")
       ->default_str(fmt::format("payload.deployment_speed_m_s of the case, else the speed of the run; with "
@@ -112,7 +143,7 @@ void add_export(CLI::App& app, int& status) {
   add_run_folder(*command, "--drogue-flight", options->drogue_flight,
                  "Folder of a run of ripstop fly of the drogue")
       ->needs(drogue);
-  command->add_option("--drogue-trigger", options->drogue_trigger, "Deployment trigger of the drogue")
+  add_trigger(*command, "--drogue-trigger", options->drogue_trigger, "Deployment trigger of the drogue")
       ->needs(drogue);
   command
       ->add_flag("--drogue-released", options->drogue_released,
@@ -123,6 +154,9 @@ void add_export(CLI::App& app, int& status) {
                    "Reefed stage SHARE:SECONDS of the parachute, as for ripstop load; repeatable, in order")
       ->expected(1)
       ->take_all();
+  add_number(*command, "--bay-diameter", options->bay_diameter, above(0).up_to(10),
+             "Inner diameter of the parachute bay, which the packed parachute fills; not for rocketpy [m]")
+      ->default_str("packed parachute twice as long as wide");
   command->add_option("--out", options->out, "File")->default_str("standard output");
   command->add_flag("--force", options->force, "Replace an existing file");
   command->callback([options, &status] { status = export_run(*options); });

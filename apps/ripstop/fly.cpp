@@ -14,6 +14,7 @@
 #include "json_option.h"
 #include "margins.h"
 #include "number_option.h"
+#include "opening.h"
 #include "option.h"
 #include "progress.h"
 #include "ripstop/core/error.h"
@@ -45,6 +46,9 @@ void print_flight(const FlightResult& r, const fs::path& folder, double wall_tim
   const auto row = print_row;
   fmt::print("\n{}\n", r.title);
   if (const auto& h = r.handover) {
+    if (h->deployment_speed)
+      row("airspeed at deployment",
+          fmt::format("{:.4g} m/s ({})", *h->deployment_speed, *h->deployment_speed_from));
     row("inflation", fmt::format("{:.3f} s, peak load {:.1f} N, {:.1f} m lost; {:.2f} m/s at its end",
                                  h->time, h->opening_peak, h->height_lost, h->opening_speed));
     row("flight continues",
@@ -158,6 +162,8 @@ int fly(const FlyArguments& options) {
   const Settings resolved = flight_settings(read_given(options.case_file, options.overrides), options.from);
   const fs::path folder = options.out.empty() ? default_run_folder(options.case_file, "flight") : options.out;
   const int threads = options.threads > 0 ? options.threads : resolved.coupling().threads;
+  if (!options.json && options.from.empty() && resolved.flight().start == FlightSettings::Start::inflation)
+    print_deployment_speed(resolved);
   goes_on_when_repeated();
   Progress progress;
   FlightTerminal terminal(progress, folder, options.json);
@@ -212,7 +218,8 @@ void add_fly(CLI::App& app, int& status) {
       "Number of flow cells across the nominal diameter (ripstop stability: across the projected one)",
       options->overrides);
   add_key_number(*command, "--speed", "flow.speed_m_s", options->overrides.speed,
-                 "Airspeed of the payload at deployment, with --deploy [m/s]");
+                 "Airspeed of the payload at deployment, with --deploy [m/s]")
+      ->default_str("payload.deployment_speed_m_s, else flow.speed_m_s");
   CLI::Option* deploy = command->add_flag_callback(
       "--deploy",
       [options] {

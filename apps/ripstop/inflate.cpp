@@ -42,8 +42,9 @@ struct InflateArguments {
   int samples = 0;  // 0: one opening as the case has it
 };
 
-/// The deployment in one dimension, a line a phase.
+/// The airspeed at deployment, and the deployment in one dimension, a line a phase.
 void print_deployment(const Settings& resolved) {
+  print_deployment_speed(resolved);
   const auto deployment = deployment_of(resolved);
   if (!deployment) return;
   const PackedParachute packed = packed_parachute(resolved);
@@ -135,6 +136,8 @@ void print_peaks(const InflationResult& r) {
                                      100 * (own / *s.measured_peak_n - 1), r.low_pass ? ", low-passed" : ""));
   }
   if (s.printed_peak_n) row("peak, published model", fmt::format("{:.1f} N", *s.printed_peak_n));
+  if (r.speed && r.speed_source)
+    row("airspeed at deployment", fmt::format("{:.4g} m/s ({})", *r.speed, *r.speed_source));
   if (r.density && r.height && r.air_source)
     row("air",
         fmt::format("{:.4g} kg/m3, {:.4g} m above sea level ({})", *r.density, *r.height, *r.air_source));

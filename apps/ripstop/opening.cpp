@@ -9,6 +9,7 @@
 #include "option.h"
 #include "ripstop/case/deployment.h"
 #include "ripstop/run/steady/steady_folder.h"
+#include "units_option.h"
 
 namespace ripstop::cli {
 void add_opening_options(CLI::App& command, OpeningOptions& options) {
@@ -24,7 +25,8 @@ void add_opening_options(CLI::App& command, OpeningOptions& options) {
   add_key_option(command, "--cloth-nodes", "parachute.mesh.cloth_nodes", "Target number of cloth nodes",
                  options.overrides);
   add_key_number(command, "--speed", "flow.speed_m_s", options.overrides.speed,
-                 "Airspeed at deployment [m/s]");
+                 "Airspeed at deployment [m/s]")
+      ->default_str("payload.deployment_speed_m_s, else flow.speed_m_s");
   add_set_option(command, options.overrides);
   add_number(command, "--threads", options.threads, from(1).up_to(key_range("coupling.threads").high),
              "Number of threads")
@@ -45,6 +47,11 @@ Settings opening_settings(const OpeningOptions& options) {
                *given.inflation.initial_radius_m);
   }
   return resolve(opening_case(given));
+}
+
+void print_deployment_speed(const Settings& opening) {
+  const DeploymentSpeed start = opening_speed(opening);
+  print_text("airspeed at deployment: {:.4g} m/s ({})\n", start.speed, start.from);
 }
 
 int threads_of(const OpeningOptions& options, const Settings& opening) {

@@ -30,7 +30,7 @@ struct RecoveryArguments {
   Overrides overrides;
   std::optional<double> mass, apogee;
   RecoveryRequest request;
-  bool json = false;
+  bool json = false, speed_given = false;
 };
 
 std::string range_text(const Ranged& r, const char* unit) {
@@ -94,11 +94,12 @@ std::string wind_text(const RecoveryResult& r) {
                      rounded(r.apogee_wind));
 }
 
-void print_result(const RecoveryResult& r, const fs::path& folder) {
+void print_result(const RecoveryResult& r, const RecoveryArguments& options) {
   print_text(
       "{}\n  {:.4g} kg and parachutes {:.3g} kg, apogee {:.5g} m above the ground, which is {:.4g} m above "
-      "sea level\n",
-      r.title, r.mass, r.total_mass - r.mass, r.apogee, r.ground);
+      "sea level; horizontal airspeed at apogee {:.4g} m/s{}\n",
+      r.title, r.mass, r.total_mass - r.mass, r.apogee, r.ground, options.request.speed,
+      options.speed_given ? "" : " (assumed, the default of --speed)");
   for (const RecoveryStage& stage : r.stages) print_stage(stage, r.wind.speed_m_s > 0);
   print_text("\nlanding\n");
   print_row("rate of descent", range_text(r.landing_speed, "m/s"));
@@ -117,7 +118,7 @@ void print_result(const RecoveryResult& r, const fs::path& folder) {
       "Ranges are computed with the smallest and the largest drag coefficients in descent; ranges of loads "
       "include the scatter of openings.\n"
       "{} (report.html, height.png, speed.png, trajectory.csv, result.json)\n",
-      folder.string());
+      options.out.string());
 }
 
 int recovery(RecoveryArguments& options) {
@@ -135,7 +136,7 @@ int recovery(RecoveryArguments& options) {
   const RecoveryResult result = run_recovery(main, drogue, options.request);
   write_recovery(options.out, result);
   return show(result, options.json, [&] {
-    print_result(result, options.out);
+    print_result(result, options);
     print_replaced_mass(options.mass, main);
   });
 }
@@ -204,7 +205,10 @@ void add_recovery(CLI::App& app, int& status) {
   command->add_option("--out", options->out, "Folder");
   add_units_option(*command);
   add_json_option(*command, options->json);
-  command->callback([options, &status] { status = recovery(*options); });
+  command->callback([options, command, &status] {
+    options->speed_given = command->count("--speed") > 0;
+    status = recovery(*options);
+  });
 }
 
 }  // namespace ripstop::cli

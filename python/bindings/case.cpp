@@ -67,11 +67,15 @@ void add_settings(const py::dict& keys, const std::string& above, std::vector<Se
   }
 }
 
+constexpr const char* from_dictionary = "from_dict";
+
 void parse(PyCase& made) {
   Overrides overrides;
   overrides.set = made.set;
   made.given = parse_case(made.text, made.name, overrides);
   made.given.file = made.file;
+  for (auto& [key, origin] : made.given.origins)  // a dictionary is a whole case, not a change of one
+    if (origin.option == from_dictionary) origin = {from_dictionary, 0, 0, ""};
   for (const std::string& text : made.given.deprecations)
     if (PyErr_WarnEx(PyExc_DeprecationWarning, text.c_str(), 1) != 0) throw py::error_already_set();
 }
@@ -87,8 +91,8 @@ PyCase from_toml(const std::string& text, const std::string& name, const py::dic
 
 PyCase from_dict(const py::dict& tables) {
   PyCase made;
-  made.name = "from_dict";
-  add_settings(tables, "", made.set, "from_dict");
+  made.name = from_dictionary;
+  add_settings(tables, "", made.set, from_dictionary);
   parse(made);
   return made;
 }

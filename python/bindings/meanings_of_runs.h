@@ -98,6 +98,8 @@ Check.memory_bytes: estimated memory of a steady run
 Check.core_time_s: estimated time of a steady run on one core
 Check.blockage: disk of the undeformed canopy over the cross section of the domain or the nozzle
 Check.speed_m_s: speed of the free stream
+Check.deployment_speed_m_s: airspeed at line stretch for which the default tape and the warnings about members are
+Check.deployment_speed_from: key or rule that gave this airspeed
 PartMasses.cloth: mass of the cloth [kg]
 PartMasses.tape: mass of the tape [kg]
 PartMasses.lines: mass of the suspension lines [kg]
@@ -160,6 +162,7 @@ DescentRow.speed_uncertainty_m_s: its uncertainty, from that of the drag area
 DescentRow.time_to_ground_s: time from this height to the ground; None: at or below the ground
 DescentRow.time_uncertainty_s: its uncertainty
 ExportedParachute.drag_area_m2: drag area C_D S0
+ExportedParachute.drag_area_mean_m2: mean of the drag area for a dispersion analysis
 ExportedParachute.drag_area_deviation_m2: standard deviation of the drag area for a dispersion analysis
 ExportedParachute.drag_coefficient: drag coefficient on the area named by drag_coefficient_on
 ExportedParachute.drag_coefficient_on: name of the attribute that is its reference area
@@ -201,6 +204,8 @@ FlightProgress.duration_s: longest time of flight
 FlightProgress.rate_of_descent_m_s: present vertical speed of the payload, positive downwards
 FlightProgress.oscillation_deg: present angle between the vertical and the line from payload to canopy
 Handover.time_s: time since deployment
+Handover.deployment_speed_m_s: airspeed at deployment
+Handover.deployment_speed_from: key or option that gave this airspeed
 Handover.same_flow: whether the flow continues unchanged; False: it is interpolated to the cells of the flight
 Handover.speed_m_s: speed of the payload
 Handover.path_angle_deg: angle of its path below the horizon
@@ -212,6 +217,8 @@ Handover.drag_after_n: drag of the canopy at the start of the flight
 Handover.elastic_energy_before_j: elastic energy of cloth and lines at the end of the inflation
 Handover.elastic_energy_after_j: elastic energy of cloth and lines at the start of the flight
 # inflate()
+Inflation.speed_m_s: airspeed at deployment; None: result of an earlier version
+Inflation.speed_from: key or option that gave this airspeed
 Inflation.height_m: height above sea level at the start; None: result of an earlier version
 Inflation.peak_load_n: peak load on the riser after the start-up, unfiltered
 Inflation.peak_time_s: time of this peak since deployment

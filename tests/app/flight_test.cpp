@@ -34,6 +34,20 @@ TEST_F(FlightCommands, SizeWritesACaseThatChecks) {
   EXPECT_TRUE(fs::exists(folder_.path / "load" / "force.png"));
 }
 
+TEST_F(FlightCommands, SizeStatesTheHeightThatItAssumes) {
+  const std::vector<std::string> size = {"size", "--mass",  "2.4",   "--descent-rate",
+                                         "5",    "--force", "--out", in("my.toml")};
+  const std::string assumed =
+      "0 m above sea level, for descent and opening (flow.height_m = 0 m of the case; "
+      "--height is not given, sea level is assumed)";
+  for (const char* option : {"", "--height", "--density"}) {
+    std::vector<std::string> with = size;
+    if (*option) with.insert(with.end(), {option, "1"});
+    ASSERT_EQ(run(with), 0);
+    EXPECT_EQ(printed().find(assumed) != std::string::npos, !*option) << printed();
+  }
+}
+
 TEST_F(FlightCommands, AFileThatIsThereStaysUnlessForced) {
   write_file(in("my.toml"), "mine");
   const std::vector<std::string> size = {"size", "--mass", "2.4",        "--descent-rate",
@@ -109,6 +123,9 @@ TEST_F(FlightCommands, BadInputIsRefusedWithItsReasonAndLeavesNoFile) {
       {{"export", "openrocket", in("none")}, "contains no finished run of ripstop steady"},
       {{"export", "rocketpy", flat_}, "is a file; the folder of a finished run is required"},
       {{"export", "spacepy", in("empty")}, "spacepy"},
+      {{"export", "rocketpy", in("empty"), "--trigger", "300 kg"},
+       "--trigger = 300 kg: must be apogee, or a height above the ground"},
+      {{"export", "rocketpy", in("empty"), "--trigger", "-3"}, "--trigger = -3: must be apogee"},
       {{"check", flat_, "--set", "payload.mass_kg=-1"}, "payload.mass_kg = -1: must be above 0"},
       {{"check", flat_, "--set", "margins.safety_factor=0.5"}, "must be at least 1 and at most 10"},
       {{"check", flat_, "--set", "margins.seam_efficiency=1.5"}, "must be above 0 and at most 1"},

@@ -98,7 +98,7 @@ TEST_F(Inputs, ACoupledInflationIsCheckedAndRefusedForClothThatIsNoSheet) {
   EXPECT_EQ(bag.code, 0) << bag.output;
   EXPECT_NE(bag.output.find(" m/s, the speed after the deployment: 80 x 80 x 98 cells"), std::string::npos)
       << bag.output;
-  refused(deployed("1000"), 2, "or a higher flow.speed_m_s (20 m/s) pulls it out");
+  refused(deployed("1000"), 2, "or a higher airspeed at deployment (--speed; 20 m/s) pulls it out");
 }
 
 TEST_F(Inputs, AnOpeningWithoutARadiusHasAClosedMouthAndStatesIt) {

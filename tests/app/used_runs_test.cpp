@@ -178,6 +178,20 @@ TEST_F(UsedRuns, AreThoseThatTheHelpOfEveryCommandNames) {
   EXPECT_EQ(documented(), tested);
 }
 
+TEST_F(UsedRuns, AreExportedWithATriggerInAnyUnitAndForTheDiameterOfABay) {
+  const auto exported = [](const std::string& format, const std::vector<std::string>& more) {
+    std::vector<std::string> all = {"export", format, in("steady")};
+    all.insert(all.end(), more.begin(), more.end());
+    return ripstop_with(all);
+  };
+  EXPECT_NE(exported("rocketpy", {"--trigger", "1000 ft"}).output.find("trigger=304.8,"), std::string::npos);
+  const Finished design = exported("openrocket-design", {"--trigger", "300", "--bay-diameter", "5.9 in"});
+  EXPECT_NE(design.output.find("<packedradius>0.07493</packedradius>"), std::string::npos) << design.output;
+  const Finished refused = exported("rocketpy", {"--bay-diameter", "0.15"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.output.find("has no packed size"), std::string::npos) << refused.output;
+}
+
 TEST_F(UsedRuns, PassTheirWarningsOnAndAreRefusedOrMarkedWhereTheyMustNotBeUsed) {
   int number = 0;
   for (const Use& use : uses(file(), in("load-cell.csv"), in("out"))) {

@@ -101,7 +101,7 @@ TEST(Tape, OfAPayloadIsForTheSpeedAtWhichItOpens) {
   EXPECT_NE(tape_material(checked(given)).from.find("20 m/s"), std::string::npos);
 }
 
-TEST(UsualOpening, IsAtTheDeploymentSpeedOfTheCaseUnlessAnOpeningWithThePayloadIsComputed) {
+TEST(UsualOpening, IsAtTheDeploymentSpeedOfTheCaseAlsoIfAnOpeningWithThePayloadIsComputed) {
   Case given = flat_circular_case(3, 1500, 5);
   given.parachute.tape.material.reset();
   given.payload.mass_kg = 10;
@@ -111,11 +111,13 @@ TEST(UsualOpening, IsAtTheDeploymentSpeedOfTheCaseUnlessAnOpeningWithThePayloadI
   given.payload.deployment_speed_m_s = 30;
   const UsualOpening known = usual_opening(checked(given));
   EXPECT_EQ(known.speed, 30);
-  EXPECT_EQ(known.from, "payload.deployment_speed_m_s");
+  EXPECT_EQ(known.from, "payload.deployment_speed_m_s of the case");
   EXPECT_NEAR(known.load / assumed.load, 2.25, 1e-12);
-  EXPECT_NE(tape_material(checked(given)).from.find("at 30 m/s (payload.deployment_speed_m_s)"),
+  EXPECT_NE(tape_material(checked(given)).from.find("at 30 m/s (payload.deployment_speed_m_s of the case)"),
             std::string::npos);
   given.inflation.mass = InflationSettings::Mass::payload, given.inflation.air = AirModel::coupled;
+  EXPECT_EQ(usual_opening(checked(given)).speed, 30);
+  given.payload.deployment_speed_m_s.reset();
   EXPECT_EQ(usual_opening(checked(given)).speed, 5);
   EXPECT_EQ(usual_opening(checked(given)).from, "flow.speed_m_s");
 }

@@ -86,6 +86,8 @@ struct TunnelKeys {
   std::optional<double> displacement_thickness_m;  // of each wall's boundary layer
 };
 
+inline constexpr double fastest_stream = 100;  // below Mach 0.3, the limit of the flow model [m/s]
+
 /// [flow] as given. Absent values follow from parachute, cloth and the other keys: settings.h.
 struct FlowKeys : FlowOptions {
   std::optional<double> speed_m_s;  // absent: [payload] gives the mass to be carried

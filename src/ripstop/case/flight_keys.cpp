@@ -14,12 +14,13 @@ void describe(Fields& fields, PayloadKeys& payload) {
   fields
       .number(
           "deployment_speed_m_s", payload.deployment_speed_m_s, above(0).up_to(1000),
-          "Airspeed at line stretch. `ripstop load` without `--speed`, the margins of `ripstop check`, the "
-          "choice of a default tape and the filling time of `ripstop export` are for this speed. With "
-          "inflation.mass = \"payload\" the opening has flow.speed_m_s instead.")
+          "Airspeed at line stretch. `ripstop load`, `inflate` and `fly --deploy` without `--speed`, the "
+          "margins "
+          "of `ripstop check`, the choice of a default tape and the filling time of `ripstop export` are for "
+          "this speed.")
       .absent(
           "with mass_kg the larger of 20 m/s and three times the rate of descent, without it flow.speed_m_s; "
-          "`ripstop load` then needs --speed");
+          "`ripstop load` then needs --speed, and an opening starts at flow.speed_m_s");
   fields.number(
       "drag_area_m2", payload.drag_area_m2, from(0).up_to(1e4),
       "Drag area C_D S of the payload in the undisturbed stream: it carries a part of the weight in `ripstop "

@@ -217,7 +217,7 @@ void describe(Fields& fields, FlowKeys& flow) {
   }
   fields.choice("engine", flow.engine, words, "Flow solver: " + meanings + ".");
   fields
-      .number("speed_m_s", flow.speed_m_s, above(0).up_to(100),
+      .number("speed_m_s", flow.speed_m_s, above(0).up_to(fastest_stream),
               "Free-stream speed, below Mach 0.3, the limit of the flow model. With payload.mass_kg: start "
               "value of the iteration for the speed.")
       .absent("required, unless payload.mass_kg is given");

@@ -24,7 +24,6 @@ constexpr double growth = 1.2;  // of the cells outside of the core: a coarse gr
 // The flight begins with the equilibrium on the axis and does not depend on its last percent.
 constexpr int start_flow_iterations = 100, start_average = 30, start_iterations = 12;
 constexpr int multiple = 4;             // of cells along an axis, for the multigrid
-constexpr double fastest = 100;         // of wind and gust together, below Mach 0.3 [m/s]
 constexpr double least_pressure = 2;    // dynamic pressure over the weight of the cloth an area
 constexpr double least_payload = 0.25;  // over the mass of the parachute; below it the lines are hardly taut
 
@@ -58,16 +57,16 @@ void check_flight_keys(const Case& given) {
     refuse(
         "flow.angle_of_attack_deg: the direction of the stream follows from the flight; leave it out "
         "(flight.angle_deg is the angle at the start)");
-  if (std::abs(s.wind.speed_m_s) + std::abs(s.wind.gust_m_s) > fastest)
+  if (std::abs(s.wind.speed_m_s) + std::abs(s.wind.gust_m_s) > fastest_stream)
     refuse(
         fmt::format("flight.wind: {:g} m/s and a gust of {:g} m/s are above Mach 0.3; at most {:g} m/s "
                     "together",
-                    s.wind.speed_m_s, s.wind.gust_m_s, fastest));
+                    s.wind.speed_m_s, s.wind.gust_m_s, fastest_stream));
   if (s.velocity_m_s &&
-      norm(*s.velocity_m_s) + std::abs(s.wind.speed_m_s) + std::abs(s.wind.gust_m_s) > fastest)
+      norm(*s.velocity_m_s) + std::abs(s.wind.speed_m_s) + std::abs(s.wind.gust_m_s) > fastest_stream)
     refuse(fmt::format(
         "flight.velocity_m_s: {:.4g} m/s and the wind are above Mach 0.3; at most {:g} m/s together",
-        norm(*s.velocity_m_s), fastest));
+        norm(*s.velocity_m_s), fastest_stream));
   if (s.wind.exponent > 0 && !s.height_m)
     refuse(
         "flight.wind.exponent: a profile over height needs the height of the payload at the start "
@@ -99,8 +98,6 @@ void take_coarse_cells(Case& flight, double across) {
 
 /// One case for both: the flow of the opening is that of the flight.
 Case deployed_case(Case flight) {
-  if (!flight.flow.speed_m_s)
-    refuse("flow.speed_m_s is not given: a deployment needs the speed at which it begins (--speed)");
   flight.inflation.air = AirModel::coupled;
   flight.inflation.mass = InflationSettings::Mass::payload;
   if (!flight.inflation.initial_radius_m && !flight.deployment) flight.deployment.emplace();
@@ -166,7 +163,7 @@ FlightProblem problem_at(const Settings& flight, double rate, int threads) {
 Case flight_case(const Case& given) {
   check_flight_keys(given);
   if (given.flight.start == FlightSettings::Start::inflation) return deployed_case(given);
-  Case flight = opening_case(given);
+  Case flight = foldable_case(given);
   flight.flow.speed_m_s.reset();  // that at which drag is weight
   flight.flow.unsteady = false;
   if (!flight.flow.max_iterations) flight.flow.max_iterations = start_flow_iterations;

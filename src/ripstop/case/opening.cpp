@@ -13,6 +13,7 @@
 #include "ripstop/case/cluster.h"
 #include "ripstop/case/cost.h"
 #include "ripstop/case/deployment.h"
+#include "ripstop/case/tape.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/words.h"
 #include "ripstop/flight/atmosphere.h"
@@ -62,7 +63,7 @@ void start_from(const Deployment& deployment, const Settings& opening, Inflation
         ExitCode::usage,
         fmt::format("[deployment]: the canopy does not open. {}. A lower deployment.strip_force_n or "
                     "line_force_n, a larger pilot_drag_area_m2, a higher relative_speed_m_s or a higher "
-                    "flow.speed_m_s ({:g} m/s) pulls it out",
+                    "airspeed at deployment (--speed; {:g} m/s) pulls it out",
                     *deployment.stopped, opening.flow().speed_m_s));
   const DeploymentPhase& start = start_of_opening(deployment, opening);
   problem.air->flow.air.velocity =
@@ -76,9 +77,51 @@ std::function<double(double)> density_below(const std::optional<double>& height)
   return [from = *height](double fallen) { return density_ratio(from, fallen); };
 }
 
+/// The option that has replaced flow.speed_m_s of the case; empty: none.
+std::string speed_option(const Case& given) {
+  const auto origin = given.origins.find("flow.speed_m_s");
+  return origin == given.origins.end() ? "" : origin->second.option;
+}
+
+void take_opening_speed(Case& opening) {
+  std::optional<double>& deployed = opening.payload.deployment_speed_m_s;
+  FlowKeys& flow = opening.flow;
+  if (!deployed && !flow.speed_m_s)
+    throw Error(ExitCode::usage,
+                "the airspeed at deployment is missing: give --speed M/S, or payload.deployment_speed_m_s in "
+                "the case");
+  if (!deployed) return;
+  if (!speed_option(opening).empty()) {
+    if (!opening.parachute.tape.material) take_tape(tape_material(opening), opening);
+    deployed = flow.speed_m_s;
+    return;
+  }
+  if (*deployed > fastest_stream)
+    throw Error(ExitCode::usage,
+                fmt::format("payload.deployment_speed_m_s = {:g}: an opening can be computed up to {:g} m/s, "
+                            "below Mach 0.3; give a lower speed with --speed",
+                            *deployed, fastest_stream));
+  if (!flow.density_kg_m3 && !flow.height_m) flow.density_kg_m3 = air(opening).density;
+  flow.speed_m_s = deployed, flow.speed_basis = SpeedBasis::nominal;
+  opening.origins.erase("flow.speed_m_s");
+}
+
 }  // namespace
 
+DeploymentSpeed opening_speed(const Settings& opening) {
+  const double speed = opening.flow().speed_m_s;
+  if (const std::string option = speed_option(opening.written()); !option.empty())
+    return {speed, "flow.speed_m_s, given by " + option};
+  return deployment_speed(opening.payload()).value_or(DeploymentSpeed{speed, "flow.speed_m_s of the case"});
+}
+
 Case opening_case(const Case& given) {
+  Case opening = foldable_case(given);
+  take_opening_speed(opening);
+  return opening;
+}
+
+Case foldable_case(const Case& given) {
   Case opening = given;
   const InflationSettings& inflation = opening.inflation;
   const auto wrinkle = [&](auto& material) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "ripstop/case/payload.h"
 #include "ripstop/case/settings.h"
 #include "ripstop/fsi/opening.h"
 
@@ -29,7 +30,15 @@ struct LoadSource {
 };
 
 /// The case on a mesh that can be folded, with the line segments and the compression that [inflation] gives.
+Case foldable_case(const Case& given);
+
+/// That of an opening: flow.speed_m_s is payload.deployment_speed_m_s, unless an option, or a key set in Python, has
+/// replaced flow.speed_m_s. Then both are that speed, and the tape remains that of the case. Throws Error(usage) if the
+/// case gives neither, or a speed above fastest_stream.
 Case opening_case(const Case& given);
+
+/// The airspeed at which the opening begins, with its source. For settings from opening_case().
+DeploymentSpeed opening_speed(const Settings& opening);
 
 /// Load model of [inflation]. Throws Error(usage) unless it gives either a pressure or a drag coefficient.
 LoadSource load_source(const Settings& opening);

@@ -61,4 +61,10 @@ double usual_deployment_speed(double descent_rate) {
   return std::max(least_deployment_speed, deployment_over_descent * descent_rate);
 }
 
+std::optional<DeploymentSpeed> deployment_speed(const PayloadKeys& payload, std::optional<double> asked) {
+  if (asked) return DeploymentSpeed{*asked, "given"};
+  if (!payload.deployment_speed_m_s) return {};
+  return DeploymentSpeed{*payload.deployment_speed_m_s, "payload.deployment_speed_m_s of the case"};
+}
+
 }  // namespace ripstop::inline cases

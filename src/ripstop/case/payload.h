@@ -1,6 +1,9 @@
 // Payload of a parachute, and the mass of the parachute.
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "ripstop/case/settings.h"
 #include "ripstop/parachute/cut.h"
 
@@ -30,6 +33,12 @@ double usual_drag_coefficient(const Design& parachute);
 /// Deployment speed: so many times the descent rate, but at least so many m/s (assumed).
 constexpr double deployment_over_descent = 3, least_deployment_speed = 20;
 double usual_deployment_speed(double descent_rate);
+struct DeploymentSpeed {
+  double speed = 0;  // [m/s]
+  std::string from;  // "payload.deployment_speed_m_s of the case"
+};
+/// Airspeed at line stretch, for all commands: `asked`, else payload.deployment_speed_m_s; nothing without both.
+std::optional<DeploymentSpeed> deployment_speed(const PayloadKeys& payload, std::optional<double> asked = {});
 /// Of `payload` [kg] and its parachute; the drag of the canopy carries both [N].
 double suspended_weight(const Settings& resolved, double payload);
 

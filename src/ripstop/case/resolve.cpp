@@ -22,8 +22,9 @@ std::string given_where(const Origins& origins, const std::string& key) {
   const auto found = origins.find(key);
   if (found == origins.end()) return "given";
   const Origin& origin = found->second;
-  return "given " + (origin.option.empty() ? fmt::format("in {}, line {}", origin.file, origin.line)
-                                           : "by " + origin.option);
+  if (!origin.option.empty()) return "given by " + origin.option;
+  return origin.line > 0 ? fmt::format("given in {}, line {}", origin.file, origin.line)
+                         : "given in " + origin.file;
 }
 
 /// Takes the given value, else the derived one, writes it into the case and records its origin.
@@ -48,15 +49,10 @@ class Follow {
 constexpr double usual_viscosity = 1.84e-5;   // [Pa s]
 constexpr double usual_temperature = 293.15;  // [K]
 
-/// Of the tapes that were there to choose from, the one that is taken stays.
 void resolve_tape(Follow& follow, const Case& given, Case& written) {
   const TapeMaterial tape = tape_material(given);
   follow("parachute.tape.material", written.parachute.tape.material, tape.name, tape.from);
-  if (given.parachute.tape.material) return;
-  std::erase_if(written.materials, [&](const auto& material) {
-    return std::holds_alternative<Tape>(material.second) && material.first != tape.name &&
-           !given.origins.contains("materials." + material.first);
-  });
+  if (!given.parachute.tape.material) take_tape(tape, written);
 }
 
 void resolve_air(Follow& follow, const Case& given, FlowKeys& keys, FlowSettings& flow) {

@@ -7,6 +7,7 @@
 #include "ripstop/case/cluster.h"
 #include "ripstop/case/cost.h"
 #include "ripstop/case/opening.h"
+#include "ripstop/case/tape.h"
 #include "ripstop/parachute/own_mesh.h"
 
 namespace ripstop::inline cases {
@@ -64,6 +65,8 @@ CaseSummary summarize(const Settings& resolved) {
   summary.of_jet = jet;
   summary.air = {resolved.flow().speed_m_s, resolved.flow().density_kg_m3};
   summary.air_source = opening_air(resolved).from;
+  const UsualOpening opening = usual_opening(resolved.written());
+  summary.deployment = {opening.speed, opening.from};
   return summary;
 }
 

@@ -30,6 +30,7 @@ struct CaseSummary {
   bool of_jet = false;   // of the nozzle
   Air air;
   std::string air_source;
+  DeploymentSpeed deployment;  // of usual_opening()
 };
 
 /// Builds the mesh and the cloth, and throws their exceptions.

@@ -63,18 +63,17 @@ TapeMaterial tape_for(const Case& given, double line_load) {
 
 UsualOpening usual_opening(const Case& given) {
   const Air stream = air(given);
-  const bool at_speed_of_flow = given.inflation.mass == InflationSettings::Mass::payload;
-  const std::optional<double> known =
-      at_speed_of_flow ? std::optional<double>() : given.payload.deployment_speed_m_s;
-  const bool assumed = !known && given.payload.mass_kg && !at_speed_of_flow;
-  const double speed = known.value_or(assumed ? usual_deployment_speed(stream.speed) : stream.speed);
+  const auto known = deployment_speed(given.payload);
+  const bool assumed =
+      !known && given.payload.mass_kg && given.inflation.mass != InflationSettings::Mass::payload;
+  const double speed = known ? known->speed : assumed ? usual_deployment_speed(stream.speed) : stream.speed;
   const double coefficient = experience(given.parachute).opening_coefficient;
   const double drag = design_drag_coefficient(
       given.parachute, given.inflation.drag_coefficient.value_or(usual_drag_coefficient(given.parachute)));
   const double load = (coefficient > 0 ? coefficient : unknown_opening) * drag *
                       nominal_area(given.parachute) * 0.5 * stream.density * speed * speed;
   return {speed, load,
-          known     ? "payload.deployment_speed_m_s"
+          known     ? known->from
           : assumed ? "assumed: the case does not give payload.deployment_speed_m_s"
                     : "flow.speed_m_s"};
 }
@@ -86,6 +85,14 @@ TapeMaterial tape_material(const Case& given) {
       tape_for(given, experience(given.parachute).line_load_factor * load / given.parachute.lines.count);
   tape.from += fmt::format(" in an opening at {:.3g} m/s ({})", speed, from);
   return tape;
+}
+
+void take_tape(const TapeMaterial& tape, Case& given) {
+  given.parachute.tape.material = tape.name;
+  std::erase_if(given.materials, [&](const auto& material) {
+    return std::holds_alternative<Tape>(material.second) && material.first != tape.name &&
+           !given.origins.contains("materials." + material.first);
+  });
 }
 
 }  // namespace ripstop::inline cases

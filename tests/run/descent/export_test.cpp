@@ -141,11 +141,37 @@ TEST_F(Export, OpenRocketsComponentIsImportedAsTheSameDevice) {
   EXPECT_NEAR(drag_area / p.drag_area, 1, 1e-8);
 }
 
+// The distribution is about that range: mean and two standard deviations to each side.
+TEST_F(Export, TheDistributionOfTheDragAreaHasTheRangeInDescent) {
+  const ExportedParachute p = parachute();
+  const FinishedSteady run = finished_steady(folder_->path / "run");
+  const DescentDrag range =
+      descent_drag(run.resolved, {p.drag_coefficient, "", usual_drag_uncertainty, "axial"});
+  EXPECT_NEAR((p.drag_area_mean - 2 * p.drag_area_deviation) / (range.low * p.nominal_area), 1, 1e-9);
+  EXPECT_NEAR((p.drag_area_mean + 2 * p.drag_area_deviation) / (range.high * p.nominal_area), 1, 1e-9);
+  ASSERT_FALSE(p.warnings.empty());
+  EXPECT_NE(p.warnings.back().find(fmt::format("the middle of this range, {:.4g} m2", p.drag_area_mean)),
+            std::string::npos)
+      << p.warnings.back();
+}
+
+TEST_F(Export, APackedParachuteFillsABayOfGivenDiameter) {
+  ExportedParachute p = parachute();
+  const double volume = p.packed_volume;
+  pack_into_bay(0.15, p);
+  EXPECT_EQ(p.packed_diameter, 0.15);
+  EXPECT_NEAR(std::numbers::pi / 4 * 0.15 * 0.15 * p.packed_length, volume, 1e-12);
+  EXPECT_NE(openrocket_design(ExportedRecovery{{{p}}}).find("<packedradius>0.075</packedradius>"),
+            std::string::npos);
+  EXPECT_THROW(pack_into_bay(0, p), Error);
+}
+
 /// Drogue at apogee, main at 300 m, first reefed to a quarter of its drag area for 5 s.
 ExportedRecovery two_stages(const ExportedParachute& parachute) {
   ExportedRecovery recovery;
   ExportedParachute drogue = parachute;
-  drogue.drag_area *= 0.1, drogue.drag_area_deviation *= 0.1, drogue.nominal_area *= 0.1;
+  drogue.drag_area *= 0.1, drogue.nominal_area *= 0.1;
+  drogue.drag_area_mean *= 0.1, drogue.drag_area_deviation *= 0.1;
   drogue.nominal_diameter *= std::sqrt(0.1), drogue.radius *= std::sqrt(0.1), drogue.lag = 0.2;
   recovery.stages = {{drogue, "apogee"}, {parachute, "300", {{0.25, 5}}}};
   recovery.stages[1].parachute.lag = 1.2;
@@ -183,12 +209,13 @@ for one in added: print(one[1], one[3])
 for one in space["deviations"]:
     shape, scale, name = one["lag"]
     assert name == "gamma"
-    print(one["cd_s"], shape * scale, shape**0.5 * scale)
+    print(*one["cd_s"], shape * scale, shape**0.5 * scale)
 print(drogue[2], reefed[2])
 )";
   const ExportedRecovery recovery = two_stages(parachute());
   std::istringstream output(python(script, rocketpy_text(recovery)));
-  const double area = parachute().drag_area, deviation = parachute().drag_area_deviation;
+  const double area = parachute().drag_area, mean = parachute().drag_area_mean,
+               deviation = parachute().drag_area_deviation;
   const double lag = std::sqrt(0.25) * 1.2, rest = std::sqrt(0.75) * 1.2;
   const double expected[] = {5,
                              5,
@@ -199,9 +226,11 @@ print(drogue[2], reefed[2])
                              lag,
                              1.1 * area,
                              rest,
+                             0.1 * mean,
                              0.1 * deviation,
                              0.2,
                              recovery.stages[0].parachute.lag_deviation,
+                             0.35 * mean,
                              std::hypot(0.1, 0.25) * deviation};
   for (const double value : expected) {
     double printed = 0;

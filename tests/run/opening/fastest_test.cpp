@@ -18,14 +18,14 @@
 namespace ripstop {
 namespace {
 
-Settings flat_circular(std::vector<Setting> more = {}) {
+Settings circular_with(std::vector<Setting> more = {}) {
   Overrides overrides;
   overrides.set = std::move(more);
   return resolve(
       read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/flat-circular/case.toml", overrides));
 }
 
-LoadRequest request() {
+LoadRequest level_request() {
   LoadRequest r;
   r.payload_mass = 5, r.height = 500, r.path_angle = 0, r.filling_constant = 8;
   return r;
@@ -38,11 +38,11 @@ const SafeSpeed& by(const FastestResult& r, std::string_view method) {
 }
 
 TEST(Fastest, HasTheSpeedAtWhichTheWeakestMemberIsAtItsLimitByEveryMethod) {
-  const Settings resolved = flat_circular({{"hardware.swivel.rated_load_n", "600"}});
-  const FastestResult r = run_fastest(resolved, request());
+  const Settings resolved = circular_with({{"hardware.swivel.rated_load_n", "600"}});
+  const FastestResult r = run_fastest(resolved, level_request());
   for (const SafeSpeed& safe : r.methods) {
     ASSERT_TRUE(safe.speed) << safe.method;
-    LoadRequest there = request();
+    LoadRequest there = level_request();
     there.speed = *safe.speed;
     const LoadResult loaded = run_load(resolved, there);
     for (const MethodLoad& m : loaded.stages[0].methods) {
@@ -59,7 +59,7 @@ TEST(Fastest, HasTheSpeedAtWhichTheWeakestMemberIsAtItsLimitByEveryMethod) {
 }
 
 TEST(Fastest, WithoutATapeAHemOfTheClothCarriesTheLoadOfALine) {
-  const Settings resolved = flat_circular({{"parachute.tape.material", "none"}});
+  const Settings resolved = circular_with({{"parachute.tape.material", "none"}});
   const Margins margins = load_margins(resolved, 1200);
   const auto hem = std::find_if(margins.members.begin(), margins.members.end(),
                                 [](const Margin& m) { return m.member == "hem"; });
@@ -67,14 +67,14 @@ TEST(Fastest, WithoutATapeAHemOfTheClothCarriesTheLoadOfALine) {
   EXPECT_NEAR(hem->load, experience(resolved.parachute()).line_load_factor * 100 / 0.02, 1e-6);
   EXPECT_NEAR(*hem->used, 1.5 * hem->load / (*hem->strength * 0.8 * 0.95 * 0.95 * 0.95), 1e-9);
   EXPECT_EQ(margins.weakest, "hem");
-  EXPECT_EQ(run_fastest(resolved, request()).design().member, "hem");
+  EXPECT_EQ(run_fastest(resolved, level_request()).design().member, "hem");
 }
 
 // F = C_x C_D S0 rho v^2 / 2 = F_allowed, and 1 + u times that at the lower end.
 TEST(Fastest, OfInfiniteMassIsTheRootOfTheAllowableLoad) {
-  const Settings resolved = flat_circular({{"hardware.link.rated_load_n", "400"}});
-  const FastestResult r = run_fastest(resolved, request());
-  LoadRequest there = request();
+  const Settings resolved = circular_with({{"hardware.link.rated_load_n", "400"}});
+  const FastestResult r = run_fastest(resolved, level_request());
+  LoadRequest there = level_request();
   there.speed = 10;
   const double at_ten = run_load(resolved, there).design_load;
   const SafeSpeed& safe = r.design();
@@ -84,27 +84,29 @@ TEST(Fastest, OfInfiniteMassIsTheRootOfTheAllowableLoad) {
 }
 
 TEST(Fastest, IsSlowerWithAMarginToKeepAndAbsentWhereNothingIsAtItsLimit) {
-  const Settings resolved = flat_circular({{"hardware.link.rated_load_n", "400"}});
-  const double without = *run_fastest(resolved, request()).design().speed;
-  EXPECT_NEAR(*run_fastest(resolved, request(), 1).design().speed * std::sqrt(2.0) / without, 1, 2e-3);
-  const FastestResult weak = run_fastest(flat_circular({{"hardware.link.rated_load_n", "0.01"}}), request());
+  const Settings resolved = circular_with({{"hardware.link.rated_load_n", "400"}});
+  const double without = *run_fastest(resolved, level_request()).design().speed;
+  EXPECT_NEAR(*run_fastest(resolved, level_request(), 1).design().speed * std::sqrt(2.0) / without, 1, 2e-3);
+  const FastestResult weak =
+      run_fastest(circular_with({{"hardware.link.rated_load_n", "0.01"}}), level_request());
   EXPECT_TRUE(weak.design().unsafe_at);
   EXPECT_FALSE(weak.design().speed);
   ASSERT_EQ(weak.warnings.size(), 2u);
   EXPECT_TRUE(weak.warnings[0].starts_with("the payload is heavy for this canopy")) << weak.warnings[0];
   EXPECT_TRUE(weak.warnings[1].starts_with("no deployment is safe by the method infinite mass"))
       << weak.warnings[1];
-  LoadRequest measured = request();
+  LoadRequest measured = level_request();
   measured.measured_load = 100;
   EXPECT_NE(refusal_of([&] { run_fastest(resolved, measured); }, ExitCode::usage).find("measured"),
             std::string::npos);
-  EXPECT_THROW(run_fastest(resolved, request(), -0.1), Error);
+  EXPECT_THROW(run_fastest(resolved, level_request(), -0.1), Error);
 }
 
 // Found without its uncertainty, the load at the slowest speed is allowed; with it, it is not.
 TEST(Fastest, IsAbsentWhereTheLowerEndIsBelowTheSlowestDeployment) {
   const auto with = [](double rated) {
-    return run_fastest(flat_circular({{"hardware.link.rated_load_n", fmt::format("{}", rated)}}), request());
+    return run_fastest(circular_with({{"hardware.link.rated_load_n", fmt::format("{}", rated)}}),
+                       level_request());
   };
   const double at_slowest = with(0.01).design().load;
   const FastestResult between = with(1.1 * at_slowest), above = with(1.4 * at_slowest);
@@ -113,22 +115,41 @@ TEST(Fastest, IsAbsentWhereTheLowerEndIsBelowTheSlowestDeployment) {
   EXPECT_NE(between.warnings.back().find("uncertainty of 18 %"), std::string::npos)
       << between.warnings.back();
   ASSERT_TRUE(above.design().lowest && above.design().speed);
-  LoadRequest there = request();
+  LoadRequest there = level_request();
   there.speed = *above.design().lowest;
-  const LoadResult loaded = run_load(flat_circular(), there);
+  const LoadResult loaded = run_load(circular_with(), there);
   for (const MethodLoad& m : loaded.stages[0].methods)
     if (m.method == infinite_mass_method) {
       EXPECT_LE(m.load * (1 + above.load_uncertainty), 1.4 * at_slowest);
     }
 }
 
+// A payload on a steep path near its rate of descent is accelerated while the canopy fills. The trajectory then has more
+// than infinite mass, and is the design load of ripstop load too.
+TEST(Fastest, OnASteepPathNearTheRateOfDescentIsForTheDesignLoad) {
+  LoadRequest steep = level_request();
+  steep.payload_mass = 4, steep.path_angle = 90, steep.opening_coefficient = 1.05;
+  steep.speed = 13;
+  const double allowed = 1.18 * run_load(circular_with(), steep).design_load;
+  const FastestResult found =
+      run_fastest(circular_with({{"hardware.link.rated_load_n", fmt::format("{}", allowed)}}), steep);
+  ASSERT_TRUE(found.design().lowest);
+  steep.speed = *found.design().lowest;
+  const LoadResult there = run_load(circular_with(), steep);
+  EXPECT_NE(there.design_method, infinite_mass_method);
+  EXPECT_NEAR(there.design_load * (1 + found.load_uncertainty) / allowed, 1, 3e-3);
+  EXPECT_EQ(found.design().note, "the larger load of the method trajectory is used");
+  EXPECT_EQ(there.stages[0].methods[0].note,
+            "constant speed is assumed; on this path the speed increases during filling");
+}
+
 // A load that does not depend on the speed, as the weight in a descent, is carried too.
 TEST(Fastest, WithALeastLoadIsAbsentOnlyWhereThatLoadIsNotCarried) {
-  const Settings resolved = flat_circular({{"hardware.link.rated_load_n", "400"}});
+  const Settings resolved = circular_with({{"hardware.link.rated_load_n", "400"}});
   const LoadUncertainty third{0.3, "given"};
-  const SafeSpeed free = run_fastest(resolved, request(), 0, third).design(),
-                  light = run_fastest(resolved, request(), 0, third, 0.99 * 400 / 1.3).design(),
-                  heavy = run_fastest(resolved, request(), 0, third, 1.01 * 400 / 1.3).design();
+  const SafeSpeed free = run_fastest(resolved, level_request(), 0, third).design(),
+                  light = run_fastest(resolved, level_request(), 0, third, 0.99 * 400 / 1.3).design(),
+                  heavy = run_fastest(resolved, level_request(), 0, third, 1.01 * 400 / 1.3).design();
   EXPECT_EQ(light.lowest, free.lowest);
   EXPECT_TRUE(heavy.unsafe_at && !heavy.lowest);
   EXPECT_NEAR(*free.speed / *free.lowest, std::sqrt(1.3), 2e-3);
@@ -138,12 +159,12 @@ TEST(Hardware, AStretchingPartNeedsItsKindSinceTheFactorsDependOnIt) {
   const std::vector<Setting> cord = {{"hardware.cord.breaking_load_n", "9000"},
                                      {"hardware.cord.length_m", "5"},
                                      {"hardware.cord.stiffness_n", "40000"}};
-  EXPECT_NE(refusal_of([&] { flat_circular(cord); }, ExitCode::usage).find("kind = \"textile\""),
+  EXPECT_NE(refusal_of([&] { circular_with(cord); }, ExitCode::usage).find("kind = \"textile\""),
             std::string::npos);
   const auto used = [&](const char* kind) {
     std::vector<Setting> whole = cord;
     whole.push_back({"hardware.cord.kind", kind});
-    const Margins margins = load_margins(flat_circular(whole), 1000);
+    const Margins margins = load_margins(circular_with(whole), 1000);
     EXPECT_EQ(margins.members.back().member, "cord");
     return *margins.members.back().used;
   };
@@ -153,7 +174,7 @@ TEST(Hardware, AStretchingPartNeedsItsKindSinceTheFactorsDependOnIt) {
 
 TEST(Hardware, WarnsOfStrengthsThatLackTheFactorsOfATextilePart) {
   const auto warns = [](std::vector<Setting> cord, const std::string& of) {
-    const FastestResult r = run_fastest(flat_circular(cord), request());
+    const FastestResult r = run_fastest(circular_with(cord), level_request());
     return std::any_of(r.warnings.begin(), r.warnings.end(),
                        [&](const std::string& text) { return text.find("hardware.cord: " + of) == 0; });
   };
@@ -170,17 +191,17 @@ TEST(Hardware, NeedsExactlyOneStrengthAndItsStretchInFull) {
        {std::vector<Setting>{{"hardware.a.strands", "2"}},
         {{"hardware.a.rated_load_n", "9"}, {"hardware.a.breaking_load_n", "9"}},
         {{"hardware.a.rated_load_n", "9"}, {"hardware.a.length_m", "2"}}})
-    EXPECT_NE(refusal_of([&] { flat_circular(wrong); }, ExitCode::usage).find("hardware.a"),
+    EXPECT_NE(refusal_of([&] { circular_with(wrong); }, ExitCode::usage).find("hardware.a"),
               std::string::npos);
 }
 
 // The energy of the snatch in a stiffer or shorter part is a higher load, and in a longer or softer one a lower load.
 TEST(Snatch, ChangesWithLengthAndStiffnessOfAShockCord) {
-  const Settings resolved = flat_circular({{"hardware.cord.kind", "textile"},
+  const Settings resolved = circular_with({{"hardware.cord.kind", "textile"},
                                            {"hardware.cord.breaking_load_n", "9000"},
                                            {"hardware.cord.length_m", "5"},
                                            {"hardware.cord.stiffness_n", "5000"}});
-  LoadRequest asked = request();
+  LoadRequest asked = level_request();
   asked.speed = 30, asked.snatch_speed = 8;
   const SnatchResult snatch = run_load(resolved, asked).snatch.value();
   ASSERT_EQ(snatch.changes.back().part, "cord");
@@ -190,16 +211,16 @@ TEST(Snatch, ChangesWithLengthAndStiffnessOfAShockCord) {
   EXPECT_LT(*cord.half_stiffness, snatch.load / 1.2);
   EXPECT_GT(*cord.double_stiffness, 1.2 * snatch.load);
   LoadRequest without = asked;
-  EXPECT_GT(run_load(flat_circular(), without).snatch->load, 2 * snatch.load);
+  EXPECT_GT(run_load(circular_with(), without).snatch->load, 2 * snatch.load);
 }
 
 TEST(Snatch, HasTheRatioOfTheBreakingLoadsOfLinesAndRiserAndWarnsBelowOne) {
-  LoadRequest asked = request();
+  LoadRequest asked = level_request();
   asked.speed = 30, asked.snatch_speed = 8;
-  const LoadResult without = run_load(flat_circular(), asked);
+  const LoadResult without = run_load(circular_with(), asked);
   EXPECT_NEAR(*without.snatch->line_margin, 3180 / without.snatch->line_load, 1e-9);
   EXPECT_FALSE(without.snatch->riser_margin);
-  const LoadResult with = run_load(flat_circular({{"parachute.riser.length_m", "1"}}), asked);
+  const LoadResult with = run_load(circular_with({{"parachute.riser.length_m", "1"}}), asked);
   EXPECT_NEAR(*with.snatch->riser_margin, 3180 / with.snatch->load, 1e-9);
   const auto breaks = [](const LoadResult& r, const char* part) {
     return std::any_of(r.warnings.begin(), r.warnings.end(), [&](const std::string& text) {
@@ -208,20 +229,20 @@ TEST(Snatch, HasTheRatioOfTheBreakingLoadsOfLinesAndRiserAndWarnsBelowOne) {
   };
   EXPECT_EQ(breaks(with, "the riser"), *with.snatch->riser_margin < 1);
   asked.snatch_speed = 30;
-  const LoadResult fast = run_load(flat_circular({{"parachute.riser.length_m", "1"}}), asked);
+  const LoadResult fast = run_load(circular_with({{"parachute.riser.length_m", "1"}}), asked);
   EXPECT_LT(*fast.snatch->riser_margin, 1);
   EXPECT_TRUE(breaks(fast, "the riser"));
   asked.snatch_speed = 1;
-  const LoadResult slow = run_load(flat_circular({{"parachute.riser.length_m", "1"}}), asked);
+  const LoadResult slow = run_load(circular_with({{"parachute.riser.length_m", "1"}}), asked);
   EXPECT_GT(*slow.snatch->riser_margin, 1);
   EXPECT_FALSE(breaks(slow, "the riser") || breaks(slow, "a line"));
 }
 
 TEST(Snatch, OfTheDeploymentOfTheCaseIsComputedAtTheSpeedOfTheRequest) {
-  LoadRequest asked = request();
+  LoadRequest asked = level_request();
   asked.speed = 30;
-  EXPECT_FALSE(run_load(flat_circular(), asked).snatch);
-  const Settings resolved = flat_circular({{"deployment.relative_speed_m_s", "12"}});
+  EXPECT_FALSE(run_load(circular_with(), asked).snatch);
+  const Settings resolved = circular_with({{"deployment.relative_speed_m_s", "12"}});
   const SnatchResult snatch = run_load(resolved, asked).snatch.value();
   EXPECT_EQ(snatch.from, "[deployment] of the case");
   EXPECT_NEAR(snatch.speed_difference, 12, 3);
@@ -235,8 +256,8 @@ double of_member(const Margins& margins, const std::string& member) {
 
 // Both are snatch loads, of other speeds and by other models: a part has to carry the larger one.
 TEST(Snatch, OfTwoModelsIsTheLargerOneWithAWarningOfBoth) {
-  const Settings deployed = flat_circular({{"deployment.relative_speed_m_s", "3"}});
-  LoadRequest asked = request();
+  const Settings deployed = circular_with({{"deployment.relative_speed_m_s", "3"}});
+  LoadRequest asked = level_request();
   asked.speed = 30, asked.snatch_speed = 20;
   const LoadResult r = run_load(deployed, asked);
   ASSERT_TRUE(r.snatch && r.snatch->other_load);
@@ -268,9 +289,9 @@ TEST(Snatch, OfTwoModelsIsTheLargerOneWithAWarningOfBoth) {
 
 TEST(Fastest, CarriesTheSnatchLoadToo) {
   const auto fastest = [](const std::vector<Setting>& more, std::optional<double> difference) {
-    LoadRequest asked = request();
+    LoadRequest asked = level_request();
     asked.snatch_speed = difference;
-    return run_fastest(flat_circular(more), asked);
+    return run_fastest(circular_with(more), asked);
   };
   const std::vector<Setting> link = {{"hardware.link.rated_load_n", "1500"}};
   const FastestResult without = fastest(link, {}), slow = fastest(link, 1), fast = fastest(link, 30);

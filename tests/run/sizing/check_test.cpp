@@ -31,9 +31,11 @@ TEST(CheckMargins, AreThoseAtTheDeploymentSpeedOfThePayload) {
   given.payload.mass_kg = 3, given.flow.speed_m_s = 5;
   EXPECT_FALSE(warns_of_opening(run_check(resolve(given))));
   given.payload.deployment_speed_m_s = 90;
-  const std::vector<std::string> warnings = run_check(resolve(given)).warnings;
+  const CheckResult checked = run_check(resolve(given));
+  EXPECT_EQ(checked.summary.deployment.speed, 90);
+  const std::vector<std::string>& warnings = checked.warnings;
   EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const std::string& text) {
-    return text.starts_with("in an opening at 90 m/s (payload.deployment_speed_m_s)");
+    return text.starts_with("in an opening at 90 m/s (payload.deployment_speed_m_s of the case)");
   }));
 }
 

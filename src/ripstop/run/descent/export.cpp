@@ -23,14 +23,12 @@ namespace {
 void take_deployment_speed(const FinishedSteady& run, const std::optional<double>& given,
                            ExportedParachute& p) {
   const PayloadKeys& payload = run.resolved.payload();
-  const std::optional<double>& known = given ? given : payload.deployment_speed_m_s;
+  const auto known = deployment_speed(payload, given);
   p.speed_assumed = !known && payload.mass_kg;
-  p.deployment_speed = known             ? *known
+  p.deployment_speed = known             ? known->speed
                        : p.speed_assumed ? usual_deployment_speed(run.result.speed)
                                          : run.result.speed;
-  p.deployment_speed_from = given   ? "given"
-                            : known ? "payload.deployment_speed_m_s of the case"
-                                    : "speed of the run";
+  p.deployment_speed_from = known ? known->from : "speed of the run";
   if (p.speed_assumed)
     p.deployment_speed_from = fmt::format(
         "assumed, the larger of {:g} m/s and {:g} times the rate of descent of {:.3g} m/s, as ripstop size",
@@ -38,16 +36,21 @@ void take_deployment_speed(const FinishedSteady& run, const std::optional<double
   require_positive("deployment speed (m/s)", p.deployment_speed);
 }
 
-/// The deviation is that of the axial coefficient. In descent it has the range of `ripstop recovery`.
-std::string axial_warning(const Settings& resolved, double uncertainty, const ExportedParachute& p) {
-  const DescentDrag range = descent_drag(
-      resolved, {p.drag_coefficient, "", std::max(usual_drag_uncertainty, uncertainty), p.basis});
+/// The range of the coefficient in descent is that of `ripstop recovery`, about two standard deviations to each side.
+void take_distribution(const DescentDrag& range, ExportedParachute& p) {
+  p.drag_area_mean = 0.5 * (range.low + range.high) * p.nominal_area;
+  p.drag_area_deviation = 0.25 * (range.high - range.low) * p.nominal_area;
+}
+
+/// The drag area of a nominal trajectory is axial.
+std::string axial_warning(const DescentDrag& range, const ExportedParachute& p) {
   return fmt::format(
       "{}: the drag area of {:.4g} m2 is axial; in descent its range is {:.4g} to {:.4g} m2, C_D {:.3f} to "
-      "{:.3f} on S0 ({}), as for ripstop recovery. The exported standard deviation of {:.2g} % does not "
-      "contain this range: repeat the analysis with both ends of it, or export a flight with --flight",
+      "{:.3f} on S0 ({}), as for ripstop recovery. A dispersion analysis has the middle of this range, "
+      "{:.4g} m2, with a standard deviation of a quarter of its width; for another drag area of the nominal "
+      "trajectory export a flight with --flight",
       p.title, p.drag_area, range.low * p.nominal_area, range.high * p.nominal_area, range.low, range.high,
-      range.from, 100 * p.drag_area_deviation / p.drag_area);
+      range.from, p.drag_area_mean);
 }
 
 }  // namespace
@@ -81,7 +84,6 @@ ExportedParachute exported(const FinishedSteady& run, std::optional<double> depl
   const CarryingRun carries = flight ? carrying_run(*flight) : carrying_run(run);
   p.basis = carries.basis;
   p.drag_area = carries.drag_area, p.drag_area_uncertainty = carries.uncertainty * p.drag_area;
-  p.drag_area_deviation = std::max(p.drag_area_uncertainty, 0.5 * usual_drag_uncertainty * p.drag_area);
   p.known_coefficient = experience(design).drag_coefficient.if_known();
   p.nominal_area = run.result.reference_area;
   p.nominal_diameter = nominal_diameter(design);
@@ -105,8 +107,17 @@ ExportedParachute exported(const FinishedSteady& run, std::optional<double> depl
   p.packed_length = 2 * p.packed_diameter;
   p.warnings = run.warnings;
   if (flight) p.warnings.insert(p.warnings.end(), flight->warnings.begin(), flight->warnings.end());
-  if (p.basis == "axial") p.warnings.push_back(axial_warning(run.resolved, carries.uncertainty, p));
+  const double own = std::max(usual_drag_uncertainty, carries.uncertainty);
+  const DescentDrag range = descent_drag(run.resolved, {p.drag_coefficient, "", own, p.basis});
+  take_distribution(range, p);
+  if (p.basis == "axial") p.warnings.push_back(axial_warning(range, p));
   return p;
+}
+
+void pack_into_bay(double diameter, ExportedParachute& parachute) {
+  require_positive("diameter of the bay (m)", diameter);
+  parachute.packed_diameter = diameter;
+  parachute.packed_length = parachute.packed_volume / (std::numbers::pi / 4 * diameter * diameter);
 }
 
 }  // namespace ripstop::inline run

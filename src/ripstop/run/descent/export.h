@@ -17,9 +17,9 @@ namespace ripstop::inline run {
 struct ExportedParachute {
   std::string title, run;
   double drag_area = 0, drag_area_uncertainty = 0;  // [m2]
-  /// Standard deviation for a dispersion analysis (assumed): half of usual_drag_uncertainty, or the uncertainty of the
-  /// run where that is larger [m2].
-  double drag_area_deviation = 0;
+  /// Normal distribution for a dispersion analysis. Its mean is the middle of the range in descent, which is that of
+  /// `ripstop recovery`. Its standard deviation is a quarter of the width of this range (assumed) [m2].
+  double drag_area_mean = 0, drag_area_deviation = 0;
   double nominal_diameter = 0, nominal_area = 0, drag_coefficient = 0;
   std::string drag_coefficient_on;  // the member that is its reference area
   std::string basis;                // "axial": of the steady run; "descent": of the flight
@@ -37,7 +37,7 @@ struct ExportedParachute {
   double line_length = 0, line_density = 0, cloth_density = 0;  // [m], [kg/m], [kg/m2]
   std::string line_material, cloth_material;
   double packed_volume = 0, packed_diameter = 0,
-         packed_length = 0;                // [m3], [m], [m]: a cylinder twice as long as wide
+         packed_length = 0;  // [m3], [m], [m]: a cylinder twice as long as wide, or as wide as the bay
   std::vector<std::string> warnings = {};  // of run and flight
 };
 template <Of<ExportedParachute> T, class Visit>
@@ -46,6 +46,7 @@ void each_member(T& p, Visit&& visit) {
   visit("run", p.run);
   visit("drag_area_m2", p.drag_area);
   visit("drag_area_uncertainty_m2", p.drag_area_uncertainty);
+  visit("drag_area_mean_m2", p.drag_area_mean);
   visit("drag_area_deviation_m2", p.drag_area_deviation);
   visit("nominal_diameter_m", p.nominal_diameter);
   visit("nominal_area_m2", p.nominal_area);
@@ -81,6 +82,9 @@ std::string to_json(const ExportedParachute& parachute);
 /// or of a `flight` of the same parachute. Throws Error(usage) for the flight of another one.
 ExportedParachute exported(const FinishedSteady& run, std::optional<double> deployment_speed = {},
                            const std::optional<FinishedFlight>& flight = {});
+
+/// The packed parachute fills a bay of this inner diameter [m].
+void pack_into_bay(double diameter, ExportedParachute& parachute);
 
 /// One parachute of a recovery, with its deployment.
 struct ExportedStage {

@@ -120,15 +120,20 @@ std::string lag_distribution(double lag, double relative_deviation) {
   return fmt::format(", lag=({}, {}, \"gamma\")", 1 / square, lag * square);
 }
 
-/// The two dictionaries of one part: arguments and standard deviations. `others`: drag area of a drogue that remains [m2].
+/// Of a drogue that remains, in the drag area of the main [m2].
+struct OtherDrag {
+  double area = 0, mean = 0, deviation = 0;
+};
+
+/// The two dictionaries of one part: arguments, and distributions of drag area and lag.
 struct PartText {
   std::string arguments, deviations;
 };
-PartText rocketpy_part(const ExportedStage& stage, const Part& part, double others, double others_deviation) {
+PartText rocketpy_part(const ExportedStage& stage, const Part& part, const OtherDrag& others) {
   const ExportedParachute& p = stage.parachute;
   const std::optional<double> height = trigger_height(stage.trigger);
   const std::string plain = height ? fmt::format("{}", *height) : "\"apogee\"";
-  const double area = part.share * p.drag_area + others, radius = p.radius * std::sqrt(part.share);
+  const double area = part.share * p.drag_area + others.area, radius = p.radius * std::sqrt(part.share);
   return {
       fmt::format("    dict(\n        name={},\n        cd_s={},\n        trigger={},\n"
                   "        sampling_rate=SAMPLING_RATE,\n        lag={},\n        noise=(0, 0, 0),\n"
@@ -137,7 +142,8 @@ PartText rocketpy_part(const ExportedStage& stage, const Part& part, double othe
                   literal(part.name), area,
                   part.after > 0 ? fmt::format("After({}, {})", plain, part.after) : plain, part.lag, radius,
                   p.height * std::sqrt(part.share), p.porosity, area / (std::numbers::pi * radius * radius)),
-      fmt::format("    dict(cd_s={}{}),\n", std::hypot(part.share * p.drag_area_deviation, others_deviation),
+      fmt::format("    dict(cd_s=({}, {}){}),\n", part.share * p.drag_area_mean + others.mean,
+                  std::hypot(part.share * p.drag_area_deviation, others.deviation),
                   lag_distribution(part.lag, p.lag > 0 ? p.lag_deviation / p.lag : 0))};
 }
 
@@ -196,28 +202,28 @@ std::string device_text(const ExportedStage& stage, const Part& part) {
 std::string rocketpy_text(const ExportedRecovery& recovery) {
   std::string comments, arguments, deviations;
   bool timed = false;
-  double others = 0, others_deviation = 0;
+  OtherDrag others;
   for (std::size_t i = 0; i < recovery.stages.size(); ++i) {
     const ExportedStage& stage = recovery.stages[i];
     comments += comment_of(stage, stage_name(recovery, i));
     for (const Part& part : parts_of(stage, stage_name(recovery, i))) {
-      const PartText text = rocketpy_part(stage, part, others, others_deviation);
+      const PartText text = rocketpy_part(stage, part, others);
       arguments += text.arguments, deviations += text.deviations;
       timed = timed || part.after > 0;
     }
     if (!recovery.drogue_released)
-      others += stage.parachute.drag_area, others_deviation = stage.parachute.drag_area_deviation;
+      others = {stage.parachute.drag_area, stage.parachute.drag_area_mean,
+                stage.parachute.drag_area_deviation};
   }
   return fmt::format(
       "# Parachutes for RocketPy 1.12 and later, by Ripstop {}.\n{}"
       "# RocketPy's added mass follows from radius, height and porosity: those of the computed canopy.\n{}"
       "SAMPLING_RATE = {}\n\n\n{}"
       "parachutes = [\n{}]\n\n"
-      "# For StochasticParachute: standard deviation of the drag area, {:.0f} % or the uncertainty of the "
-      "run; "
-      "gamma\n# distribution (shape, scale) of the lag with a standard deviation of {:.0f} % (assumed): "
-      "RocketPy "
-      "fails on a lag below 0.\n"
+      "# For StochasticParachute: mean and standard deviation of the drag area, the middle and a quarter of "
+      "the width of\n# its range in descent (as ripstop recovery; assumed); gamma distribution (shape, "
+      "scale) "
+      "of the lag with a standard\n# deviation of {:.0f} % (assumed): RocketPy fails on a lag below 0.\n"
       "deviations = [\n{}]\n\n\n"
       "def add_to(rocket):\n    \"\"\"Add the parachutes to a rocketpy.Rocket and return them.\"\"\"\n"
       "    return [rocket.add_parachute(**arguments) for arguments in parachutes]\n\n\n"
@@ -231,8 +237,7 @@ std::string rocketpy_text(const ExportedRecovery& recovery) {
           ? "# cd_s of the main includes the drogue, which remains attached: RocketPy uses the last one "
             "only.\n"
           : "",
-      sampling_rate, timed ? after_class : "", arguments, 50 * usual_drag_uncertainty,
-      100 * filling_time_scatter, deviations);
+      sampling_rate, timed ? after_class : "", arguments, 100 * filling_time_scatter, deviations);
 }
 
 std::string rocketpy_text(const ExportedParachute& p, const std::string& trigger) {

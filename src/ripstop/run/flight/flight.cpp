@@ -178,13 +178,16 @@ void take_quality(FlightResult& r, const Settings& resolved) {
   r.usable = judgement.usable;
 }
 
-std::optional<Handover> handover_of(const FreeFlight& flight, const FlightStart& start,
-                                    const FreeFlightState& state, const FlightHistory& history) {
+std::optional<Handover> handover_of(const Settings& resolved, const FreeFlight& flight,
+                                    const FlightStart& start, const FreeFlightState& state,
+                                    const FlightHistory& history) {
   if (!start.opening) return {};
   const OpeningEnd& end = *start.opening;
   const FreeFlightRow& first = history.rows.front();
   Handover h;
   h.time = flight.began(), h.same_flow = start.same_flow;
+  DeploymentSpeed deployed = opening_speed(resolved);
+  h.deployment_speed = deployed.speed, h.deployment_speed_from = std::move(deployed.from);
   h.height_lost = end.fallen, h.opening_speed = end.speed, h.opening_peak = end.peak_load;
   h.path_angle = end.angle * 180 / std::numbers::pi;
   h.load_before = end.load, h.load_after = norm(first.line_force);
@@ -206,7 +209,7 @@ FlightResult result_of(const Settings& resolved, const FreeFlight& flight, const
   r.known_coefficient = experience(resolved.parachute()).drag_coefficient.if_known();
   const FlightSummary summary = summarise_flight(history.rows);
   if (!failed(ended_by)) take_means(r, summary);
-  r.handover = handover_of(flight, start, state, history);
+  r.handover = handover_of(resolved, flight, start, state, history);
   r.largest_load = std::max(summary.largest_load, start.opening ? start.opening->peak_load : 0);
   r.load_factor = r.largest_load / (r.payload_mass * standard_gravity);
   const Vec3 way = last.payload - first.payload;
@@ -284,7 +287,7 @@ Settings flight_settings(const Case& given, const fs::path& from) {
   Case folded = given;
   if (folded.inflation.folds == 0 && !folded.inflation.initial_radius_m)
     folded.inflation.folds = opening.inflation().folds;  // that of a closed mouth
-  require_same_parachute(opening, from.string(), resolve(opening_case(folded)));
+  require_same_parachute(opening, from.string(), resolve(foldable_case(folded)));
   return alone(resolve(continued_case(given, opening)));
 }
 

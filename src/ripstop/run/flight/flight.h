@@ -19,7 +19,9 @@ namespace ripstop::inline run {
 
 /// How a flight continues an inflation: the same quantities at the end of that and in its own first step.
 struct Handover {
-  double time = 0;         // since deployment [s]
+  double time = 0;                                   // since deployment [s]
+  std::optional<double> deployment_speed;            // airspeed at deployment [m/s]
+  std::optional<std::string> deployment_speed_from;  // both are absent in results of earlier versions
   bool same_flow = false;  // cells and boundaries are those of the inflation; else interpolated
   double height_lost = 0, opening_speed = 0;     // by the payload until then [m], its speed then [m/s]
   double path_angle = 0;                         // of its path below the horizon then [deg]
@@ -31,6 +33,8 @@ struct Handover {
 template <Of<Handover> T, class Visit>
 void each_member(T& h, Visit&& visit) {
   visit("time_s", h.time);
+  visit("deployment_speed_m_s", h.deployment_speed);
+  visit("deployment_speed_from", h.deployment_speed_from);
   visit("same_flow", h.same_flow);
   visit("height_lost_m", h.height_lost);
   visit("speed_m_s", h.opening_speed);

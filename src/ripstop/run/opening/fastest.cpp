@@ -87,11 +87,14 @@ MethodPeak peak_of(const LoadResult& r, const std::string& method) {
   return peak;
 }
 
-/// The load of the design method, or a larger one of a computed opening with a limit or of the whole descent.
+/// The load of the design method, or a larger one of another method that determines the design load there, of a computed
+/// opening with a limit, or of the whole descent.
 MethodPeak design_peak(const LoadResult& r, const std::string& method, double least_load) {
   MethodPeak peak = peak_of(r, method);
   if (const MethodPeak computed = peak_of(r, computed_method); computed.load > peak.load)
     peak = {computed.load, false, "the larger load of the computed opening is used"};
+  if (r.design_load > peak.load)
+    peak = {r.design_load, false, fmt::format("the larger load of the method {} is used", r.design_method)};
   if (least_load > peak.load) peak = {least_load, false, "the largest load of the descent is used"};
   return peak;
 }

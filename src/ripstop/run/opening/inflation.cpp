@@ -107,14 +107,14 @@ void take_steady_load(InflationResult& r, const LoadSource& source, const Openin
 constexpr double folded_share = 0.25;
 
 /// Speed at the start of the opening: after a deployment, that at which the canopy leaves its container [m/s].
-double opening_speed(const Settings& resolved, const Opening& solver) {
+double stream_speed(const Settings& resolved, const Opening& solver) {
   return solver.air() ? solver.problem().air->flow.air.speed() : resolved.flow().speed_m_s;
 }
 
 /// C_x times the drag of the open canopy at the speed of the opening, and the handbook's methods for a payload.
 void compare_with_handbook(InflationResult& r, const Settings& resolved, const LoadSource& source,
                            const Opening& solver) {
-  const double speed = opening_speed(resolved, solver);
+  const double speed = stream_speed(resolved, solver);
   const double q = 0.5 * resolved.flow().density_kg_m3 * speed * speed;
   std::optional<double> drag = source.steady_drag;
   std::string from = drag ? "the given steady drag" : "";
@@ -151,23 +151,23 @@ void take_filling(InflationResult& r, const Settings& resolved, const Opening& s
   if (start_area < folded_share * nominal_area(resolved.parachute())) r.filled = filling.has_value();
   if (!filling) return;
   r.growth_exponent = filling->exponent;
-  double path = filling->time * opening_speed(resolved, solver);
+  double path = filling->time * stream_speed(resolved, solver);
   if (flies(solver))
     for (const AirRow& row : history.air)
       if (row.time <= filling->time) path = row.path;
   r.filling_distance = path / nominal_diameter(resolved.parachute());
 }
 
-/// A case made by `size` has the rate of descent as its speed.
+/// A case with a payload has as flow.speed_m_s an estimate of its rate of descent.
 std::vector<std::string> slow_opening_warnings(const Settings& resolved, const Opening& solver) {
-  const double speed = opening_speed(resolved, solver);
-  if (!resolved.written().payload.mass_kg) return {};
+  const double speed = stream_speed(resolved, solver);
+  if (!resolved.payload().mass_kg || resolved.payload().deployment_speed_m_s) return {};
   const double rate = payload_first_speed(resolved.written(), resolved.flow().density_kg_m3);
   if (speed > slow_opening * rate) return {};
   return {fmt::format(
       "the opening begins at {} m/s, which is about the rate of descent of its payload ({} m/s), so its load "
-      "is "
-      "too small for a deployment: give the airspeed at line stretch with --speed or flow.speed_m_s",
+      "is too small for a deployment: give the airspeed at line stretch with --speed or "
+      "payload.deployment_speed_m_s",
       rounded(speed, 3), rounded(rate, 3))};
 }
 
@@ -245,6 +245,8 @@ InflationResult result_of(const Settings& resolved, const LoadSource& source, co
   InflationResult r;
   r.title = resolved.title();
   r.source = source;
+  DeploymentSpeed deployed = opening_speed(resolved);
+  r.speed = deployed.speed, r.speed_source = std::move(deployed.from);
   OpeningAir air = opening_air(resolved);
   r.height = air.height, r.density = air.density, r.air_source = std::move(air.from);
   r.settings = solver.problem().settings;

@@ -64,8 +64,10 @@ struct InflationResult {
   std::optional<double> mass_defect;        // of the air: largest of a step after the start-up
   double contact_depth = 0, pierced = 0;    // largest of all frames, see InflationFrame
   std::optional<double> cells_across;       // of the air, across the inflated canopy
+  std::optional<double> speed;              // airspeed at deployment [m/s]
+  std::optional<std::string> speed_source;  // the key or option that gave it
   std::optional<double> height, density;    // at the start, above sea level [m], [kg/m3]
-  std::optional<std::string> air_source;    // these three are absent in results of earlier versions
+  std::optional<std::string> air_source;    // these five are absent in results of earlier versions
   OpeningEstimate estimate;
   std::optional<double> opening_force_coefficient;   // C_x of this opening: peak over C_D S q, infinite mass
   std::optional<double> finite_mass_factor;          // X_1 of this opening: peak over C_x C_D S q
@@ -136,6 +138,8 @@ void each_member(T& r, Visit&& visit) {
   visit("contact_depth", r.contact_depth);
   visit("pierced_edges", r.pierced);
   visit("cells_across", r.cells_across);
+  visit("speed_m_s", r.speed);
+  visit("speed_from", r.speed_source);
   visit("height_m", r.height);
   visit("density_kg_m3", r.density);
   visit("air_from", r.air_source);

@@ -136,6 +136,7 @@ void add_methods(const OpeningConditions& c, const LoadResult& r, double integra
   const double gravity =
       standard_gravity * std::abs(std::sin(c.path_angle * std::numbers::pi / 180)) * c.filling_time / c.speed;
   const bool from_none = stage.drag_area_before == 0;
+  const MomentumImpulse impulse = momentum_impulse_load(c, integral);
   const bool light = gravity < most_gravity;
   const std::string held =
       !from_none ? "assumes filling from zero drag area, unlike this stage"
@@ -144,7 +145,8 @@ void add_methods(const OpeningConditions& c, const LoadResult& r, double integra
   stage.methods.push_back(
       {infinite_mass_method, r.design_drag_coefficient / r.drag_coefficient * infinite_mass_load(c).load, 0,
        x.factor > hardly_slowed,
-       x.factor > hardly_slowed
+       impulse.speed_ratio > 1 ? "constant speed is assumed; on this path the speed increases during filling"
+       : x.factor > hardly_slowed
            ? "the speed decreases little during filling"
            : "constant speed is assumed; with this payload the speed decreases during filling"});
   OpeningConditions by_ludtke = c;
@@ -152,7 +154,6 @@ void add_methods(const OpeningConditions& c, const LoadResult& r, double integra
   const OpeningLoad pflanz = pflanz_load(c), ludtke = ludtke_load(by_ludtke);
   stage.methods.push_back({"Pflanz", pflanz.load, pflanz.time, held.empty(), held});
   stage.methods.push_back({"Ludtke", ludtke.load, ludtke.time, held.empty(), held});
-  const MomentumImpulse impulse = momentum_impulse_load(c, integral);
   const std::string left =
       fmt::format("the speed after filling is {:.0f} % of the initial speed", 100 * impulse.speed_ratio);
   stage.methods.push_back({"momentum-impulse", impulse.load.load, 0, from_none && stage.outside.empty(),

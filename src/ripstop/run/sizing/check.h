@@ -57,6 +57,8 @@ void each_member(T& s, Visit&& visit) {
   visit("speed_m_s", s.air.speed);
   visit("density_kg_m3", s.air.density);
   visit("air_from", s.air_source);
+  visit("deployment_speed_m_s", s.deployment.speed);
+  visit("deployment_speed_from", s.deployment.from);
 }
 
 struct CheckResult {
