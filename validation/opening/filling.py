@@ -29,7 +29,7 @@ ROWS = {
     "radius-0.14": ("radius of the folded skirt 0.14 m", {"inflation.initial_radius_m": "0.14"}),
     "radius-0.25": ("radius of the folded skirt 0.25 m", {"inflation.initial_radius_m": "0.25"}),
     "folds-24": ("24 folds", {"inflation.folds": "24"}),
-    "cloth-3": ("cloth of 3 CFM", {"parachute.canopy_material": "pia-c-44378-type-iv"}),
+    "cloth-3": ("cloth of 1.75 CFM", {"parachute.canopy_material": "pia-c-44378-type-iv"}),
     "mass-0.5": ("0.5 kg", {"payload.mass_kg": "0.5"}),
     "mass-10": ("10 kg", {"payload.mass_kg": "10"}),
     "held": ("fixed in the stream", HELD),
