@@ -8,6 +8,7 @@ class App;
 namespace ripstop::cli {
 
 void add_check(CLI::App& app, int& status);
+void add_materials(CLI::App& app, int& status);
 void add_schema(CLI::App& app, int& status);
 void add_steady(CLI::App& app, int& status);
 void add_fabric(CLI::App& app, int& status);

@@ -89,6 +89,7 @@ int run(int argc, char** argv) {
   add_compare(app, status);
   add_compare_flight(app, status);
   add_photogrammetry(app, status);
+  add_materials(app, status);
   add_fit(app, status);
   add_coupon(app, status);
   add_calibrate(app, status);

@@ -30,7 +30,7 @@ struct RecoveryArguments {
   Overrides overrides;
   std::optional<double> mass, apogee;
   RecoveryRequest request;
-  bool json = false, speed_given = false;
+  bool json = false;
 };
 
 std::string range_text(const Ranged& r, const char* unit) {
@@ -99,7 +99,7 @@ void print_result(const RecoveryResult& r, const RecoveryArguments& options) {
       "{}\n  {:.4g} kg and parachutes {:.3g} kg, apogee {:.5g} m above the ground, which is {:.4g} m above "
       "sea level; horizontal airspeed at apogee {:.4g} m/s{}\n",
       r.title, r.mass, r.total_mass - r.mass, r.apogee, r.ground, options.request.speed,
-      options.speed_given ? "" : " (assumed, the default of --speed)");
+      options.request.speed == RecoveryRequest{}.speed ? ", the default of --speed (assumed)" : "");
   for (const RecoveryStage& stage : r.stages) print_stage(stage, r.wind.speed_m_s > 0);
   print_text("\nlanding\n");
   print_row("rate of descent", range_text(r.landing_speed, "m/s"));
@@ -205,10 +205,7 @@ void add_recovery(CLI::App& app, int& status) {
   command->add_option("--out", options->out, "Folder");
   add_units_option(*command);
   add_json_option(*command, options->json);
-  command->callback([options, command, &status] {
-    options->speed_given = command->count("--speed") > 0;
-    status = recovery(*options);
-  });
+  command->callback([options, &status] { status = recovery(*options); });
 }
 
 }  // namespace ripstop::cli

@@ -36,15 +36,17 @@ struct SizeArguments {
   SizeRequest request;
   fs::path out = "my-canopy.toml";
   bool verify = false, fly = false, json = false, force = false;
-  double duration = 30;        // of the flights [s]
-  std::string without_height;  // names the assumed height; empty: --height or --density is given
+  double duration = 30;  // of the flights [s]
 };
 
 void print_result(const SizeResult& r, const SizeArguments& options, const fs::path& page) {
   const auto row = print_row;
   print_text("{}\n", r.given.title);
   row("air", fmt::format("{:.4g} kg/m3, {:.4g} m above sea level, for descent and opening ({}{})", r.density,
-                         r.height, r.air_source, options.without_height));
+                         r.height, r.air_source,
+                         !options.request.density && r.height == SizeRequest{}.height
+                             ? ": the default of --height, sea level"
+                             : ""));
   row("drag coefficient",
       fmt::format("{:.3f} on S0, {}{}", r.drag_coefficient, r.drag_source,
                   r.handbook_drag_coefficient
@@ -72,7 +74,9 @@ void print_result(const SizeResult& r, const SizeArguments& options, const fs::p
   row("packed volume", packed_text(r.parachute_mass, r.packed_volume));
   row("DESIGN LOAD", fmt::format("{:.0f} N at {:.3g} m/s{}: {}; largest line load {:.2f} times the mean",
                                  r.design_load, r.deployment_speed,
-                                 options.request.deployment_speed ? "" : " (default of --deployment-speed)",
+                                 r.deployment_speed == usual_deployment_speed(r.descent_rate)
+                                     ? ", the default of --deployment-speed"
+                                     : "",
                                  r.design_load_from, r.line_load_factor));
   if (r.smallest_margin)
     row("highest design load",
@@ -201,9 +205,9 @@ void add_size(CLI::App& app, int& status) {
   command->add_option("--family", r.family, "Canopy family: name of its example");
   auto* height = add_number(*command, "--height", r.height, from(lowest_height).up_to(highest_height),
                             "Height above sea level at which this rate is required [m]");
-  auto* density = add_number(*command, "--density", r.density, key_range("flow.density_kg_m3"),
-                             "Density of the air, instead of the height [kg/m3]");
-  density->excludes(height);
+  add_number(*command, "--density", r.density, key_range("flow.density_kg_m3"),
+             "Density of the air, instead of the height [kg/m3]")
+      ->excludes(height);
   add_number(*command, "--drag-coefficient", r.drag_coefficient, key_range("inflation.drag_coefficient"),
              "Drag coefficient on S0")
       ->default_str("value computed for the family");
@@ -233,11 +237,7 @@ void add_size(CLI::App& app, int& status) {
   command->add_flag("--force", options->force, "Replace an existing case file");
   add_units_option(*command);
   add_json_option(*command, options->json);
-  command->callback([options, height, density, &status] {
-    if (height->count() + density->count() == 0)
-      options->without_height = "; --height is not given, sea level is assumed";
-    status = size(*options);
-  });
+  command->callback([options, &status] { status = size(*options); });
 }
 
 }  // namespace ripstop::cli

@@ -6,6 +6,30 @@
 namespace ripstop::python {
 
 inline constexpr std::string_view meanings_of_design = R"(
+# materials()
+Material.name: value of parachute.canopy_material, lines.material or tape.material of a case
+Material.kind: fabric, line or tape
+Material.areal_density_kg_m2: mass per area of a cloth; None: another kind
+Material.linear_density_kg_m: mass per length of a line or tape; None: a cloth
+Material.width_m: width of a tape; None: another kind
+Material.thickness_m: thickness; None: not known
+Material.strength_n_m: breaking load per width of a cloth, as sold; None: not known, or another kind
+Material.strength_n: breaking load of a line or tape, as sold; None: not known, or a cloth
+Material.strength_from: source of the strength
+Material.tested_strain: strain up to which the load curve is valid; None: not known
+Material.permeability_m_s: volume flow per area through a cloth at 124.5 Pa; None: not given as a pressure drop
+Material.permeability_cfm: the same in CFM/ft2
+Material.source: sources of the values
+Material.warning: warnings of the fit; empty: none
+Material.file: file of the material, with the source of each number
+Material.curve: loads at ten strains up to the tested strain, or to 0.1
+Material.air: volume flow through a cloth at six pressure differences
+MaterialLoad.warp_load_n_m: load per width along the warp; None: a line or tape
+MaterialLoad.weft_load_n_m: load per width along the weft; None: a line or tape
+MaterialLoad.tension_n: tension of a line or tape; None: a cloth
+MaterialFlow.pressure_pa: pressure difference
+MaterialFlow.velocity_m_s: volume flow per area
+
 # load()
 Load.speed_m_s: airspeed at line stretch
 Load.speed_from: source of this speed

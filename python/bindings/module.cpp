@@ -67,6 +67,7 @@ PYBIND11_MODULE(_ripstop, module) {
   add_inflate(module);
   add_fly(module);
   add_calibrate(module);
+  add_materials(module);
   add_fit(module);
   add_pattern(module);
   add_load(module);

@@ -23,6 +23,7 @@ void add_stability(py::module_& module);
 void add_inflate(py::module_& module);
 void add_fly(py::module_& module);
 void add_calibrate(py::module_& module);
+void add_materials(py::module_& module);
 void add_fit(py::module_& module);
 void add_pattern(py::module_& module);
 void add_size(py::module_& module);

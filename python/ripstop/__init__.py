@@ -6,7 +6,7 @@
     run = ripstop.steady(case, progress=lambda i: print(i.iteration, i.drag_n))
     print(run.drag_n, run.shape)
 
-The functions correspond to commands of the program: check, steady, stability, inflate, fly, fabric, sweep, fit,
+The functions correspond to commands of the program: check, steady, stability, inflate, fly, fabric, sweep, materials, fit,
 pattern, size, load, descent, recovery, calibrate_damping, export, report. fastest_deployment is load --fastest. `add_engine` adds a flow engine written in Python,
 and `Mesh` is a canopy that is put together in Python.
 Results have the members of result.json as attributes, whose names end with the unit, and arrays that are views of

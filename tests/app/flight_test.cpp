@@ -38,8 +38,8 @@ TEST_F(FlightCommands, SizeStatesTheHeightThatItAssumes) {
   const std::vector<std::string> size = {"size", "--mass",  "2.4",   "--descent-rate",
                                          "5",    "--force", "--out", in("my.toml")};
   const std::string assumed =
-      "0 m above sea level, for descent and opening (flow.height_m = 0 m of the case; "
-      "--height is not given, sea level is assumed)";
+      "0 m above sea level, for descent and opening (flow.height_m = 0 m of the case: "
+      "the default of --height, sea level)";
   for (const char* option : {"", "--height", "--density"}) {
     std::vector<std::string> with = size;
     if (*option) with.insert(with.end(), {option, "1"});

@@ -15,6 +15,7 @@ namespace {
 const std::map<std::string, std::vector<std::string>> commands = {
     {"check", {stratos}},
     {"schema", {}},
+    {"materials", {}},
     {"steady", {stratos, "--dry-run"}},
     {"fabric", {stratos}},
     {"fit", {examples + "fit-ripstop/bench.toml"}},

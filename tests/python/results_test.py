@@ -13,6 +13,21 @@ import ripstop
 import small
 
 
+class Materials(unittest.TestCase):
+    def test_are_those_that_the_program_lists(self):
+        status, text, error = small.program("materials", "--json")
+        self.assertEqual(status, 0, error)
+        listed = json.loads(text)["materials"]
+        self.assertEqual([(m.name, m.kind, m.strength_n) for m in ripstop.materials()],
+                         [(m["name"], m["kind"], m.get("strength_n")) for m in listed])
+        cloth = ripstop.material("f-111-physical")
+        self.assertAlmostEqual(cloth.permeability_cfm, 3, 3)
+        self.assertEqual(cloth.curve[-1].strain, cloth.tested_strain)
+        self.assertEqual(len(cloth.air), 6)
+        with self.assertRaisesRegex(ripstop.Error, "did you mean"):
+            ripstop.material("f-111-physicl")
+
+
 class Cases(unittest.TestCase):
     def test_a_case_file_and_its_settings_are_what_the_program_makes_of_them(self):
         case = ripstop.Case.read(small.STRATOS, set={"flow.speed_m_s": 20, "parachute.canopy_material": "f-111"})

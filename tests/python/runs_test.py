@@ -185,6 +185,14 @@ class Openings(unittest.TestCase):
         with self.assertRaisesRegex(ripstop.Error, "a different speed"):
             ripstop.inflate(small.case(flow__speed_m_s=10), steady=steady)
 
+    def test_it_begins_at_the_deployment_speed_unless_the_speed_is_set(self):
+        case = ripstop.Case.from_dict({**small.TABLES, "payload": {"deployment_speed_m_s": 30}})
+        run = ripstop.inflate(case, pressure_pa=300)
+        self.assertEqual((run.speed_m_s, run.speed_from), (30, "payload.deployment_speed_m_s of the case"))
+        case.set("flow.speed_m_s", 25)
+        run = ripstop.inflate(case, pressure_pa=300)
+        self.assertEqual((run.speed_m_s, run.speed_from), (25, "flow.speed_m_s, given by set"))
+
     def test_a_damping_is_found_and_told_on_the_way(self):
         case = small.opening_case()
         case.set("inflation.measured_peak_n", 500)

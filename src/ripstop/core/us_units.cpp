@@ -22,7 +22,7 @@ struct UsUnit {
   double factor;  // SI per unit
 };
 constexpr double small_length = 1;  // below it lengths are in inches [m]
-constexpr std::array<UsUnit, 13> us_units{{
+constexpr std::array<UsUnit, 14> us_units{{
     {"m", "ft", foot},
     {"mm", "in", 1e3 * inch},
     {"m/s", "ft/s", foot},
@@ -32,6 +32,7 @@ constexpr std::array<UsUnit, 13> us_units{{
     {"kg", "lb", pound},
     {"N", "lbf", pound_force},
     {"N/m", "lbf/in", pound_force / inch},
+    {"g/m", "lb/1000 ft", 1e3 * pound / (1000 * foot)},
     {"J", "ft lbf", foot* pound_force},
     {"Pa", "psi", pound_force / (inch * inch)},
     {"kg/m2", "oz/yd2", ounce_per_square_yard},

@@ -150,7 +150,7 @@ TEST_F(Export, TheDistributionOfTheDragAreaHasTheRangeInDescent) {
   EXPECT_NEAR((p.drag_area_mean - 2 * p.drag_area_deviation) / (range.low * p.nominal_area), 1, 1e-9);
   EXPECT_NEAR((p.drag_area_mean + 2 * p.drag_area_deviation) / (range.high * p.nominal_area), 1, 1e-9);
   ASSERT_FALSE(p.warnings.empty());
-  EXPECT_NE(p.warnings.back().find(fmt::format("the middle of this range, {:.4g} m2", p.drag_area_mean)),
+  EXPECT_NE(p.warnings.back().find(fmt::format("the middle of the range, {:.4g} m2", p.drag_area_mean)),
             std::string::npos)
       << p.warnings.back();
 }
