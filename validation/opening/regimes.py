@@ -158,10 +158,19 @@ def held_of(name, done):
     return done.get(f"held-{ROWS[name][1]}")
 
 
+def held_on_page(name):
+    """Peak over q S0 of the canopy that is fixed in the stream, of the present page."""
+    label, cloth = ROWS["held-3"][3], ROWS[name][1]
+    return next((float(row[HEAD.index("peak over q S0")]) for row in tables.rows_of("regimes") if row[:2] == [label, cloth]), None)
+
+
 def factor(name, m, done):
     """X_1: peak over q S0, divided by that of the canopy that is fixed in the stream."""
+    if m["held"] or ROWS[name][0] != FLAT:
+        return None
     held = held_of(name, done)
-    return m["on_area"] / held["on_area"] if held and not m["held"] and ROWS[name][0] == FLAT else None
+    on_area = held["on_area"] if held else held_on_page(name)
+    return m["on_area"] / on_area if on_area else None
 
 
 def number(value, digits=2):
