@@ -105,7 +105,7 @@ March pimple_foam(const FlowProblem& problem, const std::vector<openfoam::Baffle
       folder / "constant/turbulenceProperties", "dictionary",
       "simulationType LES;\nLES { LESModel WALE; delta cubeRootVol; turbulence on; printCoeffs off; "
       "cubeRootVolCoeffs { deltaCoeff 1; } }\n");
-  write_mesh(folder / "constant/polyMesh", problem.grid, cloth);
+  write_mesh(folder / "constant/polyMesh", problem, cloth);
   write_fields(folder / "0", problem, true, {}, [&](const std::string& field) {
     std::string text;
     for (const BafflePatch& patch : cloth)

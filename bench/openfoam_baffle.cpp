@@ -120,7 +120,7 @@ std::string with_baffle(const FlowProblem& problem, const Way& way, const std::f
     write_control(folder, problem, settings.incompressible, {0, 400});
   }
   const BafflePatch patch = loose(problem);
-  write_mesh(folder / "constant/polyMesh", problem.grid, {patch});
+  write_mesh(folder / "constant/polyMesh", problem, {patch});
   write_fields(folder / "0", problem, settings.incompressible, {}, [&](const std::string& field) {
     const std::string entry =
         field != "p" ? "type cyclic;"

@@ -117,7 +117,7 @@ void print_result(const StabilityResult& r, const fs::path& folder) {
 int write_scripts(const StabilityArguments& options, const Case& given, const std::vector<double>& angles) {
   StabilitySettings settings = options.settings;
   settings.elsewhere = true;
-  BatchNeeds needs = steady_needs(resolve(given), options.batch.cores.value_or(0));
+  BatchNeeds needs = steady_needs(in_full_domain(resolve(given)), options.batch.cores.value_or(0));
   const BatchSweep parts{batch_job(options.batch, settings.run.folder, needs),
                          stability_waves(given, angles, settings), 0};
   const std::vector<BatchFile> files = slurm_files(parts);

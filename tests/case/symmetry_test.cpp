@@ -8,6 +8,7 @@
 #include "ripstop/case/cost.h"
 #include "ripstop/case/summary.h"
 #include "ripstop/core/error.h"
+#include "ripstop/flow/engines.h"
 
 namespace ripstop {
 namespace {
@@ -70,18 +71,20 @@ TEST(Symmetry, TheEstimateForAClusterOfThreeIsThatOfTheFullDomain) {
   EXPECT_EQ(summarize(three).memory, cost_of(three, false).memory);
 }
 
+TEST(Symmetry, OpenFoamSolvesAQuarterExceptOnCellsFittedToTheCloth) {
+  const Setting engine{"flow.engine", "openfoam"};
+  EXPECT_EQ(full_because({engine}), "");
+  EXPECT_EQ(full_because({engine, {"flow.symmetry", "quarter"}}), "");
+  EXPECT_EQ(full_because({engine, {"flow.mesh", "fitted"}}), "the cells are fitted to the cloth");
+}
+
 TEST(Symmetry, AnEngineWithoutPlanesOfSymmetrySolvesTheFullDomain) {
-  EXPECT_EQ(full_because({{"flow.engine", "openfoam"},
-                          {"flow.sides", "slip"},
-                          {"flow.outlet", "fixed-pressure"},
-                          {"flow.average_over", "0"}}),
-            "the flow engine \"openfoam\" has no planes of symmetry");
-  EXPECT_THROW(mirrored_canopy({{"flow.engine", "openfoam"},
-                                {"flow.symmetry", "quarter"},
-                                {"flow.sides", "slip"},
-                                {"flow.outlet", "fixed-pressure"},
-                                {"flow.average_over", "0"}}),
-               Error);
+  EngineRecord without = engine_of("openfoam");
+  without.word = "without-mirrors", without.can.quarters = false;
+  add_engine(without);
+  const Setting engine{"flow.engine", without.word};
+  EXPECT_EQ(full_because({engine}), "the flow engine \"without-mirrors\" has no planes of symmetry");
+  EXPECT_THROW(mirrored_canopy({engine, {"flow.symmetry", "quarter"}}), Error);
 }
 
 TEST(Symmetry, AQuarterIsRefusedWithTheReason) {

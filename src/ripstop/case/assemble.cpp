@@ -112,6 +112,7 @@ std::string why_full_box(const Settings& resolved, const CanopyMesh& mesh, const
   if (!engine_of(flow.engine).can.quarters)
     return fmt::format("the flow engine \"{}\" has no planes of symmetry", flow.engine);
   if (flow.unsteady) return "the flow is unsteady";
+  if (flow.mesh == FlowMesh::fitted) return "the cells are fitted to the cloth";
   if (!resolved.written().bodies.empty()) return "there are rigid bodies in the flow";
   // Rounding decides whether cloth touches a cell, and the published values are those of the full box.
   if (flow.porosity_model == PorosityModel::paper && flow.symmetry == FlowSymmetry::automatic)

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <optional>
 
+#include "ripstop/case/assemble.h"
 #include "ripstop/case/cluster.h"
 #include "ripstop/core/error.h"
 #include "ripstop/flow/openfoam/openfoam.h"
@@ -25,7 +26,7 @@ constexpr double flow_iterations = 1000, cell_time = 1.2e-7;  // of a cell and i
 constexpr double cloth_steps = 15000, node_time = 1.5e-8;     // of a node and step [core s]
 
 // Of a quarter: a quarter of the arrays, and pressure and velocity of the whole box.
-constexpr double quarter_time = 0.25, quarter_memory = 0.3;
+constexpr double quarter_cells = 0.25, quarter_memory = 0.3;
 
 /// The number behind `name` in a file of lines "name value", nothing where there is none.
 std::optional<double> number_in(const char* file, const std::string& name) {
@@ -66,11 +67,15 @@ Cost cost_of(const Settings& resolved, bool quarter) {
   cost.cells = double(flow.cells[0]) * flow.cells[1] * flow.cells[2];
   if (flow.cloth_levels > 0)
     cost.cells = fitted_cells(flow_grid(flow), nominal_area(design), flow.cloth_levels);
+  cost.solved_cells = (quarter ? quarter_cells : 1) * cost.cells;
   cost.cloth_memory = bytes_a_node * cost.nodes;
   cost.memory = flow_memory((quarter ? quarter_memory : 1) * cost.cells) + cost.cloth_memory;
-  cost.time = flow_iterations * cell_time * (quarter ? quarter_time : 1) * cost.cells +
-              cloth_steps * node_time * cost.nodes;
+  cost.time = flow_iterations * cell_time * cost.solved_cells + cloth_steps * node_time * cost.nodes;
   return cost;
+}
+
+Cost steady_cost(const Settings& resolved) {
+  return cost_of(resolved, why_full_box(resolved, steady_mesh(resolved), flow_problem(resolved)).empty());
 }
 
 double free_memory() {

@@ -10,12 +10,15 @@ namespace ripstop::inline cases {
 struct Cost {
   double nodes = 0;         // of cloth, lines and riser
   double cells = 0;         // of the flow
+  double solved_cells = 0;  // of the part of the box that is solved
   double cloth_memory = 0;  // of all that computes the canopy alone [bytes]
   double memory = 0;        // of a steady run with the built-in engine [bytes]
   double time = 0;          // of the same to rest on one core [s]; half to twice as much is usual
 };
 /// `quarter`: of a steady run that solves a quarter of the box.
 Cost cost_of(const Settings& resolved, bool quarter = false);
+/// Of a steady run as it would be: of a quarter where that is enough. Makes the mesh of the canopy.
+Cost steady_cost(const Settings& resolved);
 /// Memory of a flow of the built-in engine by itself [bytes].
 double flow_memory(double cells);
 

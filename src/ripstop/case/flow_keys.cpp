@@ -255,7 +255,7 @@ void describe(Fields& fields, FlowKeys& flow) {
       "symmetry", flow.symmetry,
       {{"auto", FlowSymmetry::automatic}, {"full", FlowSymmetry::full}, {"quarter", FlowSymmetry::quarter}},
       "Part of the domain that a steady run solves. \"full\": the whole domain. \"quarter\": a quarter with "
-      "planes of symmetry at x = 0 and y = 0, whose flow is mirrored (built-in engine only). \"auto\": a "
+      "planes of symmetry at x = 0 and y = 0, whose flow is mirrored. \"auto\": a "
       "quarter if the cloth is a sheet, canopy, cells and stream are symmetric, and 16 or more cells lie "
       "across the canopy, else the whole domain. Unsteady runs, openings and flights use the whole domain.");
   fields.choice("mesh", flow.mesh, {{"grid", FlowMesh::grid}, {"fitted", FlowMesh::fitted}},

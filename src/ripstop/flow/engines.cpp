@@ -60,6 +60,7 @@ EngineRecord openfoam_rho_porous() {
           {.sheets = true,
            .ranks = true,
            .fitted_meshes = true,
+           .quarters = true,
            .boundaries = {"zero-gradient", "slip", "far-field", "fixed-pressure"}},
           [](const EngineOptions& options) {
             return "OpenFOAM " + openfoam::find_installation({}, options.ranks > 1).version;

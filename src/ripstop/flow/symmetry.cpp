@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "ripstop/core/error.h"
+
 namespace ripstop::inline flow {
 namespace {
 
@@ -34,6 +36,15 @@ std::string why_not_mirrored(const FlowProblem& problem) {
     if (!mirrored(problem.grid.edges(axis))) return "the cells are not symmetric about the canopy axis";
   }
   return {};
+}
+
+void check_quarter(const FlowProblem& problem) {
+  if (!problem.quarter) return;
+  if (const std::string reason = why_not_mirrored(problem); !reason.empty())
+    throw Error(
+        ExitCode::usage,
+        fmt::format("flow: a quarter of the domain cannot be solved, because {}; solve the full domain",
+                    reason));
 }
 
 }  // namespace ripstop::inline flow

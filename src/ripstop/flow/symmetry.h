@@ -11,4 +11,7 @@ namespace ripstop::inline flow {
 /// clause; empty: they are. The bodies are left to the caller.
 std::string why_not_mirrored(const FlowProblem& problem);
 
+/// Throws Error(usage) with that reason where a quarter is to be solved.
+void check_quarter(const FlowProblem& problem);
+
 }  // namespace ripstop::inline flow

@@ -194,15 +194,13 @@ TEST_F(OpenFoamSheet, TightClothIsOnePatchAndLooseClothOneForEveryLaw) {
   EXPECT_EQ(patches({1e6, 2, 5}), (Names{"cloth", "cloth1", "cloth2"}));
 }
 
-TEST_F(OpenFoamSheet, TheMeshIsOneThatOpenFoamFindsSound) {
-  FlowProblem problem = plate_in_box(30, 0);
-  problem.bodies.push_back(sheet_body(rectangle({-1, -1, 3.1}, {2, 0, 0.4}, {0, 2, 0}), {2, 0}, "second"));
-  const auto flow = sheets_on_openfoam("case")->start(problem);
+void expect_sound_mesh(const FlowProblem& problem, FlowEngine& engine, const std::filesystem::path& folder) {
+  const auto flow = engine.start(problem);
   flow->advance(1, 1e-9);
   const openfoam::Installation installation = openfoam::find_installation({}, false);
   ProcessRequest request;
   request.arguments = {openfoam::program(installation, "checkMesh").string()};
-  request.working_folder = folder_.path / "case";
+  request.working_folder = folder;
   request.environment = openfoam::environment(installation);
   bool sound = false;
   int patches = 0;
@@ -214,6 +212,93 @@ TEST_F(OpenFoamSheet, TheMeshIsOneThatOpenFoamFindsSound) {
   EXPECT_TRUE(run_process(request).succeeded());
   EXPECT_TRUE(sound);
   EXPECT_GE(patches, 4);
+}
+
+TEST_F(OpenFoamSheet, TheMeshIsOneThatOpenFoamFindsSound) {
+  FlowProblem problem = plate_in_box(30, 0);
+  problem.bodies.push_back(sheet_body(rectangle({-1, -1, 3.1}, {2, 0, 0.4}, {0, 2, 0}), {2, 0}, "second"));
+  for (const bool quarter : {false, true}) {
+    problem.quarter = quarter;
+    expect_sound_mesh(problem, *sheets_on_openfoam("case"), folder_.path / "case");
+  }
+}
+
+/// A cup whose axis is that of the box, so that it crosses both planes of symmetry.
+FlowProblem cup_on_axis(double linear) {
+  FlowProblem problem = plate_in_box(linear, 0);
+  problem.bodies[0].surface = hemispherical_cup(1.5, {0, 0, 2.02});
+  problem.bodies[0].moment_about = {0.1, 0, 0};
+  return problem;
+}
+
+FlowProblem in_a_quarter(FlowProblem problem) {
+  problem.quarter = true;
+  return problem;
+}
+
+void expect_loads_of_the_whole(const FlowField& quarter, const FlowField& whole, const FlowProblem& problem) {
+  ASSERT_EQ(quarter.grid, whole.grid);
+  EXPECT_NEAR(quarter.porous_force.z / whole.porous_force.z, 1, 5e-3);
+  EXPECT_NEAR(quarter.last.drag / whole.last.drag, 1, 5e-3);
+  EXPECT_NEAR(quarter.momentum_deficit.z / whole.momentum_deficit.z, 1, 5e-3);
+  EXPECT_LT(std::hypot(quarter.porous_force.x, quarter.porous_force.y), 1e-9);
+  const Vec3 about = problem.bodies[0].moment_about, force = quarter.porous_force;
+  EXPECT_LT(norm(quarter.bodies[0].moment - cross(-1.0 * about, force)), 1e-9 * force.z);
+  ASSERT_EQ(quarter.sheet_loads.size(), whole.sheet_loads.size());
+  for (const SheetLoad& load : quarter.sheet_loads) {  // each on a triangle at its own place
+    const Triangle& t = problem.bodies[0].surface.at(static_cast<std::size_t>(load.triangle));
+    EXPECT_LT(norm((t.a + t.b + t.c) / 3 - load.point), 0.5);
+    EXPECT_GT(dot(load.outward, cross(t.b - t.a, t.c - t.a)), 0);
+  }
+}
+
+TEST_F(OpenFoamSheet, AQuarterOfTheBoxHasTheDragOfTheWholeAboutTightCloth) {
+  const FlowProblem problem = cup_on_axis(200);
+  expect_loads_of_the_whole(solved(in_a_quarter(problem)), solved(problem), problem);
+}
+
+// The ranks part the box where the cup lies: with the two sides of a face on different ranks, the drag is 40 % smaller.
+TEST_F(OpenFoamSheet, AQuarterOfTheBoxOnTwoRanksHasTheDragOfTheWholeThroughLooseCloth) {
+  FlowProblem problem = cup_on_axis(2);
+  problem.stopping.max_iterations = 100;
+  expect_loads_of_the_whole(solved(in_a_quarter(problem), 2), solved(problem), problem);
+}
+
+TEST_F(OpenFoamSheet, AQuarterContinuesFromItsFilesAndNotFromThoseOfTheWhole) {
+  const FlowProblem problem = in_a_quarter(cup_on_axis(200));
+  const auto own = sheets_on_openfoam("quarter"), other = sheets_on_openfoam("resumed"),
+             full = sheets_on_openfoam("whole");
+  const auto flow = own->start(problem), resumed = other->start(problem),
+             whole = full->start(cup_on_axis(200));
+  const auto goes_on = [&](Flow& of) {
+    of.place(0, hemispherical_cup(1.4, {0, 0, 2.1}));
+    of.advance(30, 1e-9);
+    return of.field();
+  };
+  flow->advance(40, 1e-9);
+  flow->save(folder_.path / "saved");
+  resumed->restore(folder_.path / "saved");
+  const FlowField one = goes_on(*flow), two = goes_on(*resumed);
+  EXPECT_EQ(one.pressure, two.pressure);
+  EXPECT_EQ(one.porous_force.z, two.porous_force.z);
+  EXPECT_THROW(whole->restore(folder_.path / "saved"), Error);
+}
+
+TEST_F(OpenFoamSheet, AQuarterIsRefusedForCellsFittedToTheClothAndForABoxThatIsNotMirrored) {
+  const auto refusal = [](FlowEngine& engine, const FlowProblem& problem) -> std::string {
+    try {
+      engine.start(problem);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::usage);
+      return error.what();
+    }
+    return {};
+  };
+  FlowProblem problem = in_a_quarter(cup_on_axis(200));
+  EXPECT_NE(refusal(*fitted("fitted", 0), problem).find("cannot be fitted to cloth"), std::string::npos);
+  problem.grid.origin.x += 0.1;
+  EXPECT_NE(refusal(*sheets_on_openfoam("case"), problem).find("not symmetric about the canopy axis"),
+            std::string::npos);
 }
 
 TEST_F(OpenFoamSheet, AScreenThatCellsAreMovedOntoTakesThePressureOfItsLaw) {

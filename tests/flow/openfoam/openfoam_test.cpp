@@ -143,6 +143,42 @@ TEST_F(OpenFoam, TheBoxLosesTheMomentumThatThePorousCellsTake) {
   }
 }
 
+/// Bodies, forces and fields of a quarter are those of the whole box.
+void expect_mirrored(const FlowField& quarter, const FlowField& whole, const FlowProblem& problem) {
+  ASSERT_EQ(quarter.grid, whole.grid);
+  EXPECT_NEAR(quarter.porous_force.z / whole.porous_force.z, 1, 1e-3);
+  EXPECT_NEAR(quarter.last.drag / quarter.porous_force.z, 1, 1e-3);
+  EXPECT_NEAR(quarter.momentum_deficit.z / whole.momentum_deficit.z, 1, 1e-3);
+  const BodyLoad &own = quarter.bodies.at(0), &other = whole.bodies.at(0);
+  EXPECT_NEAR(own.force.z / other.force.z, 1, 1e-3);
+  EXPECT_GT(norm(other.moment), 0.05 * other.force.z);
+  EXPECT_LT(norm(own.moment - other.moment), 2e-3 * norm(other.moment));
+  const double speed = problem.air.speed(), scale = 0.5 * problem.air.density * speed * speed;
+  for (int cell = 0; cell < problem.grid.cells(); ++cell) {
+    ASSERT_NEAR(quarter.pressure[cell], whole.pressure[cell], 2e-3 * scale) << cell;
+    ASSERT_LT(norm(quarter.velocity[cell] - whole.velocity[cell]), 2e-3 * speed) << cell;
+  }
+}
+
+TEST_F(OpenFoam, AQuarterOfTheBoxHasTheFlowOfTheWholeThroughPorousCellsOnOneRankAndOnTwo) {
+  FlowProblem problem = disc_in_box();
+  problem.sides = Sides::slip;
+  problem.bodies[0].moment_about = {0.1, 0, 0};
+  const FlowField whole = solve(*engine("whole"), problem);
+  problem.quarter = true;
+  for (const int ranks : {1, 2}) {
+    const auto own = engine("quarter" + std::to_string(ranks), ranks);
+    const auto flow = own->start(problem);
+    const FlowField quarter = solve_to_rest(*flow, problem.stopping);
+    ASSERT_TRUE(quarter.converged);
+    expect_mirrored(quarter, whole, problem);
+    flow->place(0, disc_at(1.7));
+    const FlowField moved = solve_to_rest(*flow, problem.stopping);
+    EXPECT_NE(moved.porous_force.z, quarter.porous_force.z);
+    EXPECT_LT(moved.last.iteration, quarter.last.iteration);
+  }
+}
+
 TEST_F(OpenFoam, AContinuedFlowNeedsFewIterationsAndIsIndependentOfTheFormerCloth) {
   FlowProblem problem = disc_in_box();
   const auto own = engine(), others = engine("other");

@@ -9,6 +9,7 @@
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
+#include "ripstop/flow/openfoam/case_reader.h"
 #include "ripstop/flow/openfoam/case_writer.h"
 #include "ripstop/flow/openfoam/field_file.h"
 #include "ripstop/flow/openfoam/programs.h"
@@ -224,6 +225,35 @@ TEST_F(WrittenFiles, TheMeshHasTheCornersTheCellsAndTheWidthsOfTheGrid) {
   }
   EXPECT_EQ(cell, 16);
   EXPECT_EQ(grid.edge(2, 16), 5);
+}
+
+TEST_F(WrittenFiles, AQuarterHasPlanesOfSymmetryInItsMeshAndInEveryField) {
+  problem.grid = {{-1, -2, -3}, {2, 4, 8}, 8, 10, 16};
+  problem.bodies = {porous_body({{0, 7, 72, 79}, 1.5e6, 250})};  // the corners of the first layer
+  problem.quarter = true;
+  const FlowProblem quarter = solved_part(problem);
+  EXPECT_EQ(quarter.bodies[0].porous().cells, std::vector<int>{19});
+  write_case(folder.path, quarter, settings);
+  const std::string mesh = body("system/blockMeshDict");
+  EXPECT_TRUE(has(mesh, "hex (0 1 2 3 4 5 6 7) (4 5 16) simpleGrading (1 1 1)")) << mesh;
+  EXPECT_EQ(list_after(mesh, "vertices\n"), (std::vector<double>{0, 0, -3, 1, 0, -3, 1, 2, -3, 0, 2, -3,
+                                                                 0, 0, 5,  1, 0, 5,  1, 2, 5,  0, 2, 5}));
+  EXPECT_TRUE(has(mesh, "symmetryX { type symmetryPlane; faces ( (0 4 7 3) ); }")) << mesh;
+  EXPECT_TRUE(has(mesh, "symmetryY { type symmetryPlane; faces ( (0 1 5 4) ); }")) << mesh;
+  EXPECT_TRUE(has(mesh, "sides { type patch; faces (  (1 2 6 5) (3 7 6 2) ); }")) << mesh;
+  for (const bool incompressible : {false, true}) {
+    const std::string start = incompressible ? "1" : "0";
+    write_fields(folder.path / start, quarter, incompressible);
+    for (const auto& file : fs::directory_iterator(folder.path / start))
+      for (const char* plane : symmetry_planes)
+        EXPECT_TRUE(has(read_file(file.path()), std::string(plane) + " { type symmetryPlane; }")) << file;
+  }
+  EXPECT_TRUE(has(read_file(folder.path / "README.txt"), "a quarter of the drag"));
+  problem.quarter = false;
+  write_case(folder.path, problem, settings);
+  write_fields(folder.path / "0", problem, true);
+  for (const char* file : {"system/blockMeshDict", "0/U", "README.txt"})
+    EXPECT_FALSE(has(read_file(folder.path / file), "symmetry")) << file;
 }
 
 TEST_F(WrittenFiles, TheReadmeDescribesTheCaseAndHowToRunIt) {

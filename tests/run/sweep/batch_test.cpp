@@ -251,6 +251,14 @@ TEST(BatchNeeds, AreTheCostOfTheCaseAndOfItsEngine) {
   EXPECT_EQ(opening.limited, "no estimate is available for this run");
   EXPECT_EQ(opening_needs(resolve(given), 2, 5).cores, 5);
 
+  overrides.set.push_back({"flow.porosity_model", "sheet"});
+  overrides.set.push_back({"parachute.canopy_material", "f-111-physical"});
+  const Settings quarter = resolve(read_case(file, overrides));
+  EXPECT_NEAR(steady_needs(quarter).memory - cost_of(quarter, true).memory,
+              takes.cell_memory * cost.cells / 4 + takes.rank_memory * 6, 1);
+  EXPECT_NEAR(steady_needs(in_full_domain(quarter)).memory - cost_of(quarter).memory,
+              takes.cell_memory * cost.cells + takes.rank_memory * 6, 1);
+
   Case small = square_law_case();
   small.flow.unsteady = true;
   EXPECT_EQ(steady_needs(resolve(small)).hours, 24);

@@ -56,9 +56,7 @@ void check(const FlowProblem& problem) {
   positive_value("viscosity ratio", a.viscosity_ratio);
   check_stream(a);
   check_bodies(problem);
-  if (const std::string reason = problem.quarter ? why_not_mirrored(problem) : ""; !reason.empty())
-    usage(fmt::format("flow: a quarter of the domain cannot be solved, because {}; solve the full domain",
-                      reason));
+  check_quarter(problem);
   if (problem.jet) {
     check(*problem.jet, g);
     if (!a.along_z())

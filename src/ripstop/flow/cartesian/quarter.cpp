@@ -54,6 +54,15 @@ FlowProblem quarter_of(FlowProblem whole) {
   return whole;
 }
 
+Vec3 of_whole_box(Vec3 sum) {
+  return {0, 0, images * sum.z};
+}
+
+BodyLoad of_whole_box(const BodyLoad& load, Vec3 moment_about) {
+  const Vec3 force = of_whole_box(load.force);
+  return {force, cross(-1.0 * moment_about, force)};  // the line of action of mirrored forces is the axis
+}
+
 Axis whole_of(const Axis& half) {
   std::vector<double> edges;
   for (int f = half.n; f > 0; --f) edges.push_back(-half.edge[static_cast<std::size_t>(f)]);
@@ -115,6 +124,18 @@ std::vector<std::array<int, images>> take_quarter(std::vector<SheetFace>& faces,
   }
   faces = std::move(own);
   return triangles;
+}
+
+void add_images(const SheetLoad& load, const std::array<int, images>& triangle, int in_plane,
+                std::vector<SheetLoad>& loads) {
+  loads.push_back(load);
+  for (int image = 1; image < images; ++image) {
+    if ((image & in_plane) != 0) continue;
+    SheetLoad& other = loads.emplace_back(load);
+    other.triangle = triangle[static_cast<std::size_t>(image)];
+    other.point = mirrored(load.point, image), other.outward = mirrored(load.outward, image);
+    other.force = mirrored(load.force, image);
+  }
 }
 
 }  // namespace ripstop::inline flow::cartesian

@@ -361,15 +361,10 @@ std::vector<SheetLoad> SheetRows::loads(const State& state, const Layout& layout
   for (std::size_t n = 0; n < faces_.size(); ++n) {
     const Face& face = faces_[n];
     const SheetLoad load = load_on(face, state.drop[n], state, layout);
-    result.push_back(load);
-    const int in_plane = face.in_plane ? 1 << face.geometry.axis : 0;  // its own image there
-    for (int image = 1; quarter_ && image < images; ++image) {
-      if ((image & in_plane) != 0) continue;
-      SheetLoad& other = result.emplace_back(load);
-      other.triangle = face.triangle[static_cast<std::size_t>(image)];
-      other.point = mirrored(load.point, image), other.outward = mirrored(load.outward, image);
-      other.force = mirrored(load.force, image);
-    }
+    if (quarter_)
+      add_images(load, face.triangle, face.in_plane ? 1 << face.geometry.axis : 0, result);
+    else
+      result.push_back(load);
   }
   return result;
 }

@@ -189,7 +189,7 @@ FlowProgress Solver::close_iteration() {
 }
 
 Vec3 Solver::of_whole_box(Vec3 sum) const {
-  return d_.quarter ? Vec3{0, 0, images * sum.z} : sum;
+  return d_.quarter ? cartesian::of_whole_box(sum) : sum;
 }
 
 std::array<Solver::Bounded, 6> Solver::bounded() const {
@@ -256,9 +256,7 @@ BodyLoad Solver::load_on(const PorousCells& porous, Vec3 about) const {
     const Vec3 force = (d_.grid.cell_volume(cell) * resistance) * velocity;
     load.force += force, load.moment += cross(d_.grid.centre(i, j, k) - about, force);
   }
-  // The line of action of mirrored forces is the axis.
-  if (d_.quarter) load.force = of_whole_box(load.force), load.moment = cross(-1.0 * about, load.force);
-  return load;
+  return d_.quarter ? cartesian::of_whole_box(load, about) : load;
 }
 
 void Solver::add_to(FieldMean& mean, std::vector<BodyLoad> loads) const {

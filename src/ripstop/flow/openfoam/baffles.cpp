@@ -11,6 +11,7 @@
 #include "ripstop/core/checked_int.h"
 #include "ripstop/core/file.h"
 #include "ripstop/flow/cartesian/sheet_faces.h"
+#include "ripstop/flow/openfoam/case_writer.h"
 #include "ripstop/flow/openfoam/foam_file.h"
 
 namespace ripstop::inline flow::openfoam {
@@ -62,14 +63,36 @@ double slope_of(double a, double b, const Freestream& air) {
   return a + 2 * b * velocity(a, b, 0.5 * air.density * air.speed() * air.speed());
 }
 
-std::vector<Baffle> all_baffles(const FlowProblem& problem) {
+/// The faces of a sheet and, in a quarter, the triangle of each mirror image.
+struct SheetFaces {
+  std::vector<cartesian::SheetFace> faces;
+  std::vector<std::array<int, cartesian::images>> mirrored;
+};
+
+SheetFaces faces_of(const FlowProblem& problem, const FlowBody& sheet) {
   const FlowGrid& grid = problem.grid;
   const cartesian::Axis x = axis_of(grid, 0), y = axis_of(grid, 1), z = axis_of(grid, 2);
+  SheetFaces found;
+  if (problem.quarter) {
+    found.faces = cartesian::sheet_faces(whole_of(x), whole_of(y), z, sheet.surface);
+    found.mirrored = cartesian::take_quarter(found.faces, grid.nx, grid.ny);
+  } else {
+    found.faces = cartesian::sheet_faces(x, y, z, sheet.surface);
+    found.mirrored.resize(found.faces.size());
+  }
+  return found;
+}
+
+std::vector<Baffle> all_baffles(const FlowProblem& problem) {
+  const FlowGrid& grid = problem.grid;
   const int steps[] = {1, grid.nx, grid.nx * grid.ny};
   std::map<std::pair<int, int>, Baffle> found;
   for (int s = 0; s < static_cast<int>(problem.bodies.size()); ++s) {
-    for (const cartesian::SheetFace& face : cartesian::sheet_faces(x, y, z, problem.bodies[s].surface)) {
+    const SheetFaces found_of_sheet = faces_of(problem, problem.bodies[s]);
+    for (std::size_t n = 0; n < found_of_sheet.faces.size(); ++n) {
+      const cartesian::SheetFace& face = found_of_sheet.faces[n];
       const int at[] = {face.i, face.j, face.k};
+      if (at[face.axis] == 0) continue;  // in a plane of symmetry
       double area = 1;
       for (int other = 0; other < 3; ++other)
         if (other != face.axis) area *= grid.width(other, at[other]);
@@ -79,7 +102,7 @@ std::vector<Baffle> all_baffles(const FlowProblem& problem) {
       baffle.low = low, baffle.high = high, baffle.area = along(face.axis, area);
       baffle.layers.push_back({s, face.triangle, face.point, face.outward, face.against,
                                area * component(face.normal, face.axis),
-                               std::clamp(face.area / area, 1e-2, 1.0)});
+                               std::clamp(face.area / area, 1e-2, 1.0), found_of_sheet.mirrored[n]});
     }
   }
   std::vector<Baffle> baffles;
@@ -203,7 +226,8 @@ void add_inner(const FlowGrid& grid, const std::vector<BafflePatch>& patches, Fa
   }
 }
 
-void add_box(const FlowGrid& grid, Faces& faces) {
+void add_box(const FlowProblem& problem, Faces& faces) {
+  const FlowGrid& grid = problem.grid;
   const Corners corners(grid);
   const auto side = [&](int axis, bool high) {
     const int u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
@@ -221,8 +245,13 @@ void add_box(const FlowGrid& grid, Faces& faces) {
   side(2, true);
   faces.end_patch("outlet", "type patch;");
   for (const int axis : {0, 1})
-    for (const bool high : {false, true}) side(axis, high);
+    for (const bool high : {false, true})
+      if (high || !problem.quarter) side(axis, high);
   faces.end_patch("sides", "type patch;");
+  for (int axis = 0; problem.quarter && axis < 2; ++axis) {
+    side(axis, false);
+    faces.end_patch(symmetry_planes[axis], "type symmetryPlane;");
+  }
 }
 
 void add_cloth(const FlowGrid& grid, const std::vector<BafflePatch>& patches, Faces& faces) {
@@ -258,10 +287,11 @@ std::vector<double> points_of(const FlowGrid& grid) {
 
 }  // namespace
 
-void write_mesh(const fs::path& folder, const FlowGrid& grid, const std::vector<BafflePatch>& patches) {
+void write_mesh(const fs::path& folder, const FlowProblem& problem, const std::vector<BafflePatch>& patches) {
+  const FlowGrid& grid = problem.grid;
   Faces faces;
   add_inner(grid, patches, faces);
-  add_box(grid, faces);
+  add_box(problem, faces);
   add_cloth(grid, patches, faces);
   std::string boundary = fmt::format("{}\n(\n", faces.patches.size());
   for (const Faces::Patch& patch : faces.patches)

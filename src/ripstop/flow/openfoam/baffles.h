@@ -1,10 +1,12 @@
 // Sheets among cells as OpenFOAM has them: faces with a patch on either side.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "ripstop/flow/cartesian/quarter.h"
 #include "ripstop/flow/flow.h"
 
 namespace ripstop::inline flow::openfoam {
@@ -17,6 +19,7 @@ struct Layer {
   bool against = false;        // the sheet's outer side is the low one
   double area = 0;             // of the sheet that the face represents, for its load [m2]
   double slant = 1;            // the flux through the face is the velocity of the sheet times this
+  std::array<int, cartesian::images> mirrored{};  // triangle of each mirror image, in a quarter
 };
 
 /// A face of the mesh that cloth parts: its low side is a face of cell `low`, its high side one of cell `high`.
@@ -39,7 +42,7 @@ struct BafflePatch {
 /// The faces of the grid whose larger part a sheet covers. Cloth is loose where the slope of the pressure over the
 /// velocity is less than half of rho U: OpenFOAM's jump follows the flow of the previous iteration and does not
 /// converge across denser cloth. There the velocity follows the pressure. Across a sheet that closes the whole box
-/// the flow is given, and all of it is loose.
+/// the flow is given, and all of it is loose. Faces in planes of symmetry have no drop, and are none of them.
 std::vector<BafflePatch> baffles_of(const FlowProblem& problem);
 
 /// Whether a law is that of loose cloth, in a box that the cloth does not shut.
@@ -54,8 +57,9 @@ double pace(const Baffle& baffle, const FlowProblem& problem);
 /// Velocity from low to high at which the pressure drops by `drop` that way [Pa], [m/s].
 double passing(const Baffle& baffle, const std::vector<FlowBody>& bodies, double drop);
 
-/// constant/polyMesh of the grid, with the patches inlet, outlet, sides and those of the baffles. Throws Error(io).
-void write_mesh(const std::filesystem::path& folder, const FlowGrid& grid,
+/// constant/polyMesh of the problem's grid, with the patches inlet, outlet, sides, in a quarter the planes of symmetry,
+/// and those of the baffles. Throws Error(io).
+void write_mesh(const std::filesystem::path& folder, const FlowProblem& problem,
                 const std::vector<BafflePatch>& patches);
 
 }  // namespace ripstop::inline flow::openfoam

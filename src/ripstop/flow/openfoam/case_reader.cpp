@@ -7,6 +7,7 @@
 
 #include "ripstop/core/error.h"
 #include "ripstop/flow/boundaries.h"
+#include "ripstop/flow/cartesian/quarter.h"
 #include "ripstop/flow/openfoam/case_writer.h"
 
 namespace ripstop::inline flow::openfoam {
@@ -174,7 +175,24 @@ FlowField read_case(const std::vector<MeshPart>& parts, const std::string& time,
       field.momentum_deficit.z += outflow_of_momentum(part, phi, unit, velocity, field.pressure, problem);
   }
   check_range(field, incompressible ? INFINITY : outlet);
+  if (!problem.quarter) return field;
+  field.porous_force = cartesian::of_whole_box(field.porous_force);
+  field.momentum_deficit = cartesian::of_whole_box(field.momentum_deficit);
+  for (std::size_t n = 0; n < field.bodies.size(); ++n)
+    field.bodies[n] = cartesian::of_whole_box(field.bodies[n], problem.bodies[n].moment_about);
   return field;
+}
+
+FlowProblem solved_part(const FlowProblem& whole) {
+  return whole.quarter ? cartesian::quarter_of(whole) : whole;
+}
+
+int parts_of(const FlowProblem& problem) {
+  return problem.quarter ? cartesian::images : 1;
+}
+
+FlowField whole_field(FlowField part, const FlowGrid& whole) {
+  return part.grid == whole ? part : cartesian::whole_of(std::move(part), whole);
 }
 
 }  // namespace ripstop::inline flow::openfoam

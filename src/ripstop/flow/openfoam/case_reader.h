@@ -37,8 +37,13 @@ std::vector<MeshPart> read_mesh(const std::filesystem::path& folder, int ranks);
 std::string latest_time(const std::filesystem::path& folder);
 
 /// pressure, velocity, porous_force (summed over the cells) and momentum_deficit. An incompressible case has
-/// p and phi per density.
+/// p and phi per density. Of a quarter the forces are those of the whole box, the cells those of the quarter.
 FlowField read_case(const std::vector<MeshPart>& parts, const std::string& time, const FlowProblem& problem,
                     bool incompressible);
+
+/// The part of the box that is solved, how many of them make the whole, and the field of the whole from that of the part.
+FlowProblem solved_part(const FlowProblem& whole);
+int parts_of(const FlowProblem& problem);
+FlowField whole_field(FlowField part, const FlowGrid& whole);
 
 }  // namespace ripstop::inline flow::openfoam

@@ -12,6 +12,7 @@
 #include "ripstop/flow/openfoam/foam_file.h"
 #include "ripstop/flow/openfoam/installation.h"
 #include "ripstop/flow/openfoam/openfoam.h"
+#include "ripstop/flow/symmetry.h"
 
 namespace ripstop::inline flow::openfoam {
 namespace {
@@ -74,7 +75,8 @@ std::string grading(const FlowGrid& grid, int axis) {
   return text + " )";
 }
 
-std::string mesh_dictionary(const FlowGrid& grid) {
+std::string mesh_dictionary(const FlowProblem& problem) {
+  const FlowGrid& grid = problem.grid;
   const Vec3 a = grid.origin, b = grid.origin + grid.size;
   std::string vertices;
   for (const double z : {a.z, b.z}) {
@@ -83,15 +85,22 @@ std::string mesh_dictionary(const FlowGrid& grid) {
       vertices += fmt::format("    ({:.17g} {:.17g} {:.17g})\n", x, y, z);
     }
   }
+  const char *low_x = "(0 4 7 3)", *low_y = "(0 1 5 4)";
+  const std::string planes = problem.quarter ? fmt::format(
+                                                   "    {} {{ type symmetryPlane; faces ( {} ); }}\n    {} "
+                                                   "{{ type symmetryPlane; faces ( {} ); }}\n",
+                                                   symmetry_planes[0], low_x, symmetry_planes[1], low_y)
+                                             : "";
   return fmt::format(
       "scale 1;\nvertices\n(\n{})\n;\n"
       "blocks ( hex (0 1 2 3 4 5 6 7) ({} {} {}) simpleGrading ({} {} {}) );\nedges ( );\n"
       "boundary\n(\n"
       "    inlet {{ type patch; faces ( (0 3 2 1) ); }}\n"
       "    outlet {{ type patch; faces ( (4 5 6 7) ); }}\n"
-      "    sides {{ type patch; faces ( (0 4 7 3) (1 2 6 5) (0 1 5 4) (3 7 6 2) ); }}\n"
+      "    sides {{ type patch; faces ( {} (1 2 6 5) (3 7 6 2) ); }}\n{}"
       ");\nmergePatchPairs ( );\n",
-      vertices, grid.nx, grid.ny, grid.nz, grading(grid, 0), grading(grid, 1), grading(grid, 2));
+      vertices, grid.nx, grid.ny, grid.nz, grading(grid, 0), grading(grid, 1), grading(grid, 2),
+      problem.quarter ? "" : fmt::format("{} {}", low_x, low_y), planes);
 }
 
 /// Factors of `ranks` along x, y, z with the least area between the parts.
@@ -216,6 +225,13 @@ constexpr char kForces[] = R"foam(    porousForces
     }}
 )foam";
 
+// Between ranks the pressure of loose cloth would not jump: both sides of its faces are kept on one rank.
+constexpr char kWholePatches[] = R"foam(constraints
+{
+    cloth { type preservePatches; patches ("cloth.*"); }
+}
+)foam";
+
 // The solver's own porous zones: their resistance is added after the momentum equation is under-relaxed. (The
 // porosity of fvOptions is relaxed with the rest; its converged drag differs by
 // half a percent on 8 cm cells.)
@@ -241,7 +257,7 @@ constexpr char kResistance[] = R"foam(porous{0}
 constexpr char kReadmeText[] =
     R"foam(An OpenFOAM case written by Ripstop: steady flow through {} in a box,
 {} x {} x {} cells, air of {:.6g} kg/m3 at {:.6g} m/s, {} sides.
-Ripstop owns this folder and overwrites it.
+{}Ripstop owns this folder and overwrites it.
 
 To run it by hand, with OpenFOAM's programs in PATH and WM_PROJECT_DIR set
 (Debian: export WM_PROJECT_DIR=/usr/share/openfoam):
@@ -249,6 +265,12 @@ To run it by hand, with OpenFOAM's programs in PATH and WM_PROJECT_DIR set
     rm -f {}
 {}{}
 {})foam";
+
+constexpr char kOfQuarter[] =
+    R"foam(The box is a quarter of the whole one, with planes of symmetry at x = 0 and y = 0 (patches symmetryX and
+symmetryY). Forces in the logs and in postProcessing are those of the quarter: a quarter of the drag. In ParaView the
+filter Reflect, once along X and once along Y, shows the whole flow.
+)foam";
 
 constexpr char kOfPorousCells[] =
     R"foam(The porous cells are in constant/cellZones, their resistances in
@@ -281,13 +303,14 @@ void write_readme(const fs::path& folder, const FlowProblem& problem, const Open
                                              : fmt::format("    {}\n", solver);
   std::ofstream readme(folder / kReadme);
   const bool sheets = problem.has_sheets();
-  readme << fmt::format(
-      kReadmeText, sheets ? "sheets" : "porous cells", grid.nx, grid.ny, grid.nz, problem.air.density,
-      problem.air.speed(), sides_of(problem) == Sides::zero_gradient ? "open" : sides_of(problem).word,
-      kStopFile, sheets ? "" : "    blockMesh\n    cp constant/cellZones constant/polyMesh/\n", run,
-      !sheets                ? kOfPorousCells
-      : settings.fitted_mesh ? kOfFittedMesh
-                             : kOfSheets);
+  readme << fmt::format(kReadmeText, sheets ? "sheets" : "porous cells", grid.nx, grid.ny, grid.nz,
+                        problem.air.density, problem.air.speed(),
+                        sides_of(problem) == Sides::zero_gradient ? "open" : sides_of(problem).word,
+                        problem.quarter ? kOfQuarter : "", kStopFile,
+                        sheets ? "" : "    blockMesh\n    cp constant/cellZones constant/polyMesh/\n", run,
+                        !sheets                ? kOfPorousCells
+                        : settings.fitted_mesh ? kOfFittedMesh
+                                               : kOfSheets);
   close_written(readme, folder / kReadme);
 }
 
@@ -322,7 +345,7 @@ void check(const FlowProblem& problem) {
   refuse(sides != Sides::far_field && problem.outlet != Outlet::fixed_pressure,
          fmt::format("outlet = \"{}\"", problem.outlet.word));
   refuse(!problem.body_force.empty(), "a force on the air");
-  refuse(problem.quarter, "a quarter of the domain");
+  check_quarter(problem);
   const FlowGrid& grid = problem.grid;
   for (const int n : {grid.nx, grid.ny, grid.nz}) range("number of cells along an axis", n, 1, 4000, "");
   range("number of cells", double(grid.nx) * grid.ny * grid.nz, 1, 2e8, "");
@@ -358,18 +381,18 @@ void check(const FlowProblem& problem) {
 
 void write_case(const fs::path& folder, const FlowProblem& problem, const OpenFoamSettings& settings) {
   write_readme(folder, problem, settings);  // first: where the rest fails the folder is known as ours
-  const FlowGrid& grid = problem.grid;
   if (!problem.has_sheets() || settings.fitted_mesh)
-    write_dictionary(folder / "system/blockMeshDict", "dictionary", mesh_dictionary(grid));
+    write_dictionary(folder / "system/blockMeshDict", "dictionary", mesh_dictionary(problem));
   // At the edge of a sheet without thickness an unlimited gradient throws the flow off.
   const char* second_order = !problem.has_sheets() ? "linearUpwind grad(U)" : "linearUpwind limited";
   write_dictionary(folder / "system/fvSchemes", "dictionary",
                    fmt::format(kSchemes, settings.second_order ? second_order : "upwind"));
-  const std::array<int, 3> parts = split(grid, settings.ranks);
-  write_dictionary(folder / "system/decomposeParDict", "dictionary",
-                   fmt::format("numberOfSubdomains {};\nmethod hierarchical;\n"
-                               "coeffs {{ n ({} {} {}); order xyz; delta 1e-6; }}\n",
-                               settings.ranks, parts[0], parts[1], parts[2]));
+  const std::array<int, 3> parts = split(problem.grid, settings.ranks);
+  write_dictionary(
+      folder / "system/decomposeParDict", "dictionary",
+      fmt::format("numberOfSubdomains {};\nmethod hierarchical;\n"
+                  "coeffs {{ n ({} {} {}); order xyz; delta 1e-6; }}\n{}",
+                  settings.ranks, parts[0], parts[1], parts[2], problem.has_sheets() ? kWholePatches : ""));
   if (settings.incompressible) {
     write_dictionary(
         folder / "constant/transportProperties", "dictionary",
@@ -395,12 +418,15 @@ void write_fields(const fs::path& folder, const FlowProblem& problem, bool incom
   const double k = 1.5 * fluctuation * fluctuation;
   const double omega = k / (kinematic_viscosity(air) * air.viscosity_ratio);
   const std::string calculated = "type calculated; value uniform 0;";
+  std::string planes;
+  for (const char* plane : symmetry_planes)
+    if (problem.quarter) planes += fmt::format("    {} {{ type symmetryPlane; }}\n", plane);
   const auto write = [&](const std::string& name, const char* kind, const char* dimensions,
                          const std::string& uniform, const std::string& faces) {
     const std::string inner = cells ? cells(name) : "";
-    const std::string body =
-        fmt::format("dimensions [{} 0 0 0];\n\ninternalField {};\n\nboundaryField\n{{\n{}{}}}\n", dimensions,
-                    inner.empty() ? "uniform " + uniform : inner, faces, cloth ? cloth(name) : "");
+    const std::string body = fmt::format(
+        "dimensions [{} 0 0 0];\n\ninternalField {};\n\nboundaryField\n{{\n{}{}{}}}\n", dimensions,
+        inner.empty() ? "uniform " + uniform : inner, faces, planes, cloth ? cloth(name) : "");
     write_dictionary(folder / name, kind, body, cells ? "binary" : "ascii");
   };
   // OpenFOAM's far field: between given velocity and given pressure by the cosine of velocity and face.

@@ -20,7 +20,8 @@ struct RunControl {
   int iterations = 0;  // at most
 };
 
-/// Throws Error(usage) that names the number outside its range, or the feature of the built-in engine.
+/// Throws Error(usage) that names the number outside its range, or the feature of the built-in engine. Of a quarter
+/// the problem of the whole box is checked; all else takes that of the part that is solved.
 void check(const FlowProblem& problem);
 void check_run(int iterations, double residual);
 
@@ -50,6 +51,9 @@ void write_solution(const std::filesystem::path& folder, double residual, int co
 void write_resistance(const std::filesystem::path& folder, const std::vector<FlowBody>& bodies);
 /// cellZones with one zone a list.
 void write_zones(const std::filesystem::path& folder, const std::vector<std::vector<int>>& zones);
+
+/// Patches of a quarter in the planes x = 0 and y = 0.
+inline constexpr const char* symmetry_planes[] = {"symmetryX", "symmetryY"};
 
 /// The solver clips the pressure to these multiples of the outlet's while it starts up.
 inline constexpr double kLowestPressure = 0.5, kHighestPressure = 2;

@@ -44,14 +44,19 @@ class OpenFoamFlow final : public Flow {
  public:
   OpenFoamFlow(const FlowProblem& problem, const OpenFoamSettings& settings, const fs::path& folder,
                const Installation& installation)
-      : problem_(problem), settings_(settings), folder_(folder), programs_(settings, folder, installation) {
-    check(problem_);
+      : whole_(problem),
+        problem_(solved_part(problem)),
+        settings_(settings),
+        folder_(folder),
+        programs_(settings, folder, installation) {
+    check(whole_);
     prepare();
   }
 
   void place(std::size_t body, const std::vector<Triangle>& surface, const SheetMotion&) override {
-    problem_.bodies.at(body).porous().cells = cut_cells(problem_.grid, surface);
-    check(problem_);
+    whole_.bodies.at(body).porous().cells = cut_cells(whole_.grid, surface);
+    check(whole_);
+    problem_ = solved_part(whole_);
   }
 
   FlowAdvance advance(int iterations, double residual, const FlowReport& report) override {
@@ -59,7 +64,8 @@ class OpenFoamFlow final : public Flow {
     write_problem(iterations, residual);
     const std::string start = latest_time(part_folder(0));
     fs::remove(folder_ / kStopFile);
-    SolverLog log(problem_.bodies.empty() ? SolverLog::Forces::none : SolverLog::Forces::porous);
+    SolverLog log(problem_.bodies.empty() ? SolverLog::Forces::none : SolverLog::Forces::porous,
+                  parts_of(problem_));
     FlowAdvance now;
     const ProcessResult result = programs_.run_solver(report, log, now.stopped);
     const std::string time = latest_time(part_folder(0));
@@ -75,7 +81,8 @@ class OpenFoamFlow final : public Flow {
   }
 
   FlowField field() const override {
-    return read_case(mesh_, latest_time(part_folder(0)), problem_, settings_.incompressible);
+    return whole_field(read_case(mesh_, latest_time(part_folder(0)), problem_, settings_.incompressible),
+                       whole_.grid);
   }
   bool untouched() const override { return latest_time(part_folder(0)) == "0"; }
   void start_afresh() override { prepare(); }
@@ -107,8 +114,10 @@ class OpenFoamFlow final : public Flow {
 
  private:
   Basis basis() const {
-    return {problem_.grid,   problem_.air,           problem_.sides,
-            settings_.ranks, settings_.second_order, settings_.incompressible};
+    Basis basis{problem_.grid,   problem_.air,           problem_.sides,
+                settings_.ranks, settings_.second_order, settings_.incompressible};
+    basis.quarter = problem_.quarter;
+    return basis;
   }
 
   fs::path part_folder(int rank) const {
@@ -171,7 +180,7 @@ class OpenFoamFlow final : public Flow {
     }
   }
 
-  FlowProblem problem_;
+  FlowProblem whole_, problem_;  // of the whole box, and of the part of it that is solved
   OpenFoamSettings settings_;
   fs::path folder_;
   Programs programs_;

@@ -8,6 +8,7 @@
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
+#include "ripstop/core/quantity_error.h"
 #include "ripstop/flow/openfoam/baffles.h"
 #include "ripstop/flow/openfoam/case_reader.h"
 #include "ripstop/flow/openfoam/case_writer.h"
@@ -45,9 +46,18 @@ class SheetFlow final : public Flow {
  public:
   SheetFlow(const FlowProblem& problem, const OpenFoamSettings& settings, const fs::path& folder,
             const Installation& installation)
-      : problem_(problem), settings_(settings), folder_(folder), programs_(settings, folder, installation) {
+      : given_grid_(problem.grid),
+        problem_(solved_part(problem)),
+        settings_(settings),
+        folder_(folder),
+        programs_(settings, folder, installation) {
     settings_.incompressible = true;
-    check(problem_);
+    check(problem);
+    if (problem_.quarter && settings_.fitted_mesh)
+      throw QuantityError(
+          ExitCode::usage,
+          "flow: cells cannot be fitted to cloth in a quarter of the domain; solve the full domain",
+          {"kind of mesh", "symmetry of the flow"});
     fs::create_directories(folder_);
     start_afresh();
   }
@@ -66,7 +76,7 @@ class SheetFlow final : public Flow {
     int done = 0;
     while (done < iterations && !now.converged && !now.stopped) {
       const int piece = std::min(Stopping::piece, iterations - done);
-      SolverLog log(SolverLog::Forces::pressure);
+      SolverLog log(SolverLog::Forces::pressure, parts_of(problem_));
       run(piece, residual, log, now.stopped, [&](FlowProgress progress) {
         progress.iteration += done;
         return !report || report(progress);
@@ -81,7 +91,7 @@ class SheetFlow final : public Flow {
   }
 
   FlowField field() const override {
-    FlowField field = read_case(mesh_, time_, problem_, true);
+    FlowField field = whole_field(read_case(mesh_, time_, problem_, true), given_grid_);
     field.sheet_loads = loads_;
     field.bodies.resize(problem_.bodies.size());
     for (const SheetLoad& load : loads_) {
@@ -128,8 +138,9 @@ class SheetFlow final : public Flow {
   // With fewer than two the flow about the folds of a canopy ran away on its first iterations.
   int corrections() const { return settings_.fitted_mesh ? 3 : 0; }
   Basis basis() const {
-    return {problem_.grid,          problem_.air, problem_.sides,        settings_.ranks,
-            settings_.second_order, true,         settings_.fitted_mesh, settings_.cloth_levels};
+    return {problem_.grid,         problem_.air,           problem_.sides,
+            settings_.ranks,       settings_.second_order, true,
+            settings_.fitted_mesh, settings_.cloth_levels, problem_.quarter};
   }
   CaseFolders folders() const { return {folder_, {folder_}, settings_.fitted_mesh}; }
   std::vector<fs::path> part_folders() const {
@@ -147,7 +158,7 @@ class SheetFlow final : public Flow {
       return read_cloth();
     }
     patches_ = baffles_of(problem_);
-    write_mesh(folder_ / "constant/polyMesh", problem_.grid, patches_);
+    write_mesh(folder_ / "constant/polyMesh", problem_, patches_);
     mesh_ = read_mesh(folder_, 1);
     through_.clear();
     goes_on_ = false;
@@ -377,11 +388,15 @@ class SheetFlow final : public Flow {
       load.drop = layer.against ? -own : own;
       load.force = own * baffle.area;
       load.area = layer.area;
-      loads_.push_back(load);
+      if (problem_.quarter)
+        cartesian::add_images(load, layer.mirrored, 0, loads_);
+      else
+        loads_.push_back(load);
     }
   }
 
-  FlowProblem problem_;
+  FlowGrid given_grid_;  // of the whole box
+  FlowProblem problem_;  // of the part of it that is solved
   OpenFoamSettings settings_;
   fs::path folder_;
   Programs programs_;

@@ -64,7 +64,7 @@ bool SolverLog::feed(const std::string& line) {
   bool complete = false;
   if (in_forces_ && contains(line, forces_ == Forces::pressure ? "Pressure" : "Porous")) {
     if (!read_vector(line, force_) || !is_finite(force_)) not_a_number_ = true;
-    now_.drag = force_.z;
+    now_.drag = parts_ * force_.z;
     complete = true;
   }
   if (forces_ == Forces::none && line.starts_with("ExecutionTime")) complete = true;

@@ -11,7 +11,8 @@ class SolverLog {
  public:
   /// The forces function object, if it is on: an iteration ends with its line for porous cells or for pressure.
   enum class Forces { none, porous, pressure };
-  explicit SolverLog(Forces forces) : forces_(forces) {}
+  /// `parts`: of the box, as large as the one that the solver has; the drag is that of all of them.
+  explicit SolverLog(Forces forces, int parts = 1) : forces_(forces), parts_(parts) {}
 
   /// True when this line completes an iteration: progress() and force() are then its own.
   bool feed(const std::string& line);
@@ -32,6 +33,7 @@ class SolverLog {
   void residual(const std::string& line);
 
   Forces forces_;
+  int parts_;
   bool in_forces_ = false, iterating_ = false;
   bool converged_ = false, not_a_number_ = false, trap_ = false, out_of_memory_ = false;
   int fatal_lines_ = 0;

@@ -72,7 +72,8 @@ json describe_basis(const Basis& basis) {
       {"second_order", basis.second_order},
       {"incompressible", basis.incompressible},
       {"fitted_mesh", basis.fitted_mesh},
-      {"cloth_levels", basis.cloth_levels}};
+      {"cloth_levels", basis.cloth_levels},
+      {"quarter", basis.quarter}};
 }
 
 Basis basis_from(const json& j) {
@@ -96,6 +97,7 @@ Basis basis_from(const json& j) {
   basis.incompressible = j.value("incompressible", false);  // old records without the choice
   basis.fitted_mesh = j.value("fitted_mesh", false);
   basis.cloth_levels = j.value("cloth_levels", 0);
+  basis.quarter = j.value("quarter", false);
   return basis;
 }
 

@@ -19,6 +19,7 @@ struct Basis {
   bool incompressible = false;
   bool fitted_mesh = false;
   int cloth_levels = 0;
+  bool quarter = false;
 };
 bool operator==(const Basis& a, const Basis& b);
 

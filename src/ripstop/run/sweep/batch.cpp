@@ -112,13 +112,13 @@ std::string signals() {
   return fmt::format("#SBATCH --requeue\n#SBATCH --signal=B:USR1@{}\n", notice);
 }
 
-BatchNeeds needs_of(const Settings& resolved, int cores) {
+BatchNeeds needs_of(const Settings& resolved, int cores, const Cost& cost) {
   BatchNeeds needs;
   const EngineRecord& engine = engine_of(resolved);
-  const Cost cost = cost_of(resolved);
   needs.ranks = engine.can.ranks ? resolved.flow().ranks : 1;
   needs.cores = cores > 0 ? cores : needs.ranks > 1 ? 1 : usual_cores;
-  needs.memory = cost.memory + engine.takes.cell_memory * cost.cells + engine.takes.rank_memory * needs.ranks;
+  needs.memory =
+      cost.memory + engine.takes.cell_memory * cost.solved_cells + engine.takes.rank_memory * needs.ranks;
   needs.hours = unknown_limit;
   needs.limited = "no estimate is available for this run";
   return needs;
@@ -128,18 +128,19 @@ BatchNeeds needs_of(const Settings& resolved, int cores) {
 
 BatchNeeds steady_needs(const Settings& resolved, int cores) {
   const int threads = resolved.flow().ranks > 1 ? 0 : resolved.coupling().threads;
-  BatchNeeds needs = needs_of(resolved, cores > 0 ? cores : threads);
+  const Cost cost = steady_cost(resolved);
+  BatchNeeds needs = needs_of(resolved, cores > 0 ? cores : threads, cost);
   const FlowSettings flow = resolved.flow();
   if (flow.unsteady) return needs;
   const double iterations = usual_couplings * std::min(usual_iterations, double(flow.max_iterations));
-  const double time = iterations * cost_of(resolved).cells * engine_of(resolved).takes.cell_time;  // [core s]
+  const double time = iterations * cost.solved_cells * engine_of(resolved).takes.cell_time;  // [core s]
   needs.hours = std::clamp(std::ceil(time / 3600 / needs.ranks / needs.cores), shortest_limit, longest_limit);
   needs.limited = fmt::format("about {:.2g} core hours, and an hour at least", time / 3600);
   return needs;
 }
 
 BatchNeeds opening_needs(const Settings& resolved, int threads, int cores) {
-  BatchNeeds needs = needs_of(resolved, cores > 0 ? cores : threads);
+  BatchNeeds needs = needs_of(resolved, cores > 0 ? cores : threads, cost_of(resolved));
   needs.ranks = 1;
   return needs;
 }
