@@ -191,5 +191,33 @@ TEST(Container, TheCanopyThatBrakesThePayloadDelaysItsOwnExit) {
   EXPECT_LT(outside_after(0.3), 0.95 * outside_after(1000));
 }
 
+/// Pressures on the cells after some steps of an opening [Pa].
+std::vector<double> pressures_of(const InflationProblem& problem) {
+  CoupledOpening opening(problem);
+  InflationState state = opening.start();
+  opening.advance(state);
+  return state.air.pressure;
+}
+
+// Heavy air, beside which free cloth moves with the air. In the container it is as rigid as cloth of lead.
+TEST(Container, ClothInsideIsRigidForTheAir) {
+  InflationProblem problem = opening_from_a_container();
+  problem.air->flow.air.density *= 30;
+  problem.air->container->strip_force = 1e9, problem.air->container->relative_speed = 0;
+  const std::vector<double> inside = pressures_of(problem);
+  problem.air->container.reset();
+  const std::vector<double> free = pressures_of(problem);
+  for (double& mass : problem.mesh.mass) mass *= 1e6;
+  const std::vector<double> rigid = pressures_of(problem);
+  const auto difference = [&](const std::vector<double>& p) {
+    double squares = 0, sum = 0;
+    for (std::size_t n = 0; n < rigid.size(); ++n)
+      squares += std::pow(p[n] - rigid[n], 2), sum += std::pow(rigid[n], 2);
+    return std::sqrt(squares / sum);
+  };
+  EXPECT_LT(difference(inside), 0.01);
+  EXPECT_GT(difference(free), 0.5);
+}
+
 }  // namespace
 }  // namespace ripstop
