@@ -199,7 +199,7 @@ std::vector<double> pressures_of(const InflationProblem& problem) {
   return state.air.pressure;
 }
 
-// Heavy air, beside which free cloth moves with the air. Inside it is as rigid as very heavy cloth.
+// Free cloth moves with air as heavy as this. Inside it is as rigid as very heavy cloth.
 TEST(Container, ClothInsideIsRigidForTheAir) {
   InflationProblem problem = opening_from_a_container();
   problem.air->flow.air.density *= 30;
