@@ -231,7 +231,7 @@ TEST_F(ContinuedFlight, RefusesRunsFromWhichNothingFliesOn) {
   reefed.inflation.reefing = {{1.2, 0.004, {}}};
   refused([&] { flight_settings(checked(reefed)); }, "inflation.reefing[0].cut_s = 0.004");
   given.flow.speed_m_s.reset();
-  refused([&] { flight_settings(checked(given)); }, "flow.speed_m_s");
+  refused([&] { flight_settings(checked(given)); }, "payload.deployment_speed_m_s");
 }
 
 }  // namespace
