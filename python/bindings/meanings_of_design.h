@@ -24,6 +24,7 @@ Material.warning: warnings of the fit; empty: none
 Material.file: file of the material, with the source of each number
 Material.curve: loads at ten strains up to the tested strain, or to 0.1
 Material.air: volume flow through a cloth at six pressure differences
+MaterialLoad.strain: strain of the material along the load
 MaterialLoad.warp_load_n_m: load per width along the warp; None: a line or tape
 MaterialLoad.weft_load_n_m: load per width along the weft; None: a line or tape
 MaterialLoad.tension_n: tension of a line or tape; None: a cloth
