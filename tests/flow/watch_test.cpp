@@ -85,6 +85,26 @@ TEST(Watch, TheStreamHasBeenThroughTheBoxBeforeTheMeanBegins) {
   EXPECT_GE(record.watched(), 12 / 2.0 + 20 * 0.5);
 }
 
+TEST(Watch, ADevelopedWakeIsWatchedFromWhereItsRecordHasSettled) {
+  const auto of = [](const std::function<double(double)>& force) {
+    ForceOverTime flow(force);
+    FlowProblem problem = stream();
+    problem.grid.size.z = 12;
+    Watch how = half_a_second_a_length;
+    how.developed = true;
+    FlowRecord record;
+    watch(flow, problem, how, record);
+    EXPECT_GE(record.watched() - record.start_up, 20 * 0.5);
+    EXPECT_NEAR(record.drag.mean, 10, 0.2);
+    return record;
+  };
+  const FlowRecord settled = of([](double t) { return 10 + 0.1 * std::sin(5 * t); });
+  EXPECT_LT(settled.start_up, 12 / 2.0 / 2);
+  EXPECT_LT(settled.watched(), 12 / 2.0 + 20 * 0.5);
+  const FlowRecord changes = of([](double t) { return 10 + 20 * std::exp(-t / 2) + std::sin(5 * t); });
+  EXPECT_GT(changes.start_up, 4) << "a change after the last window is left out all the same";
+}
+
 // The velocity of this flow is the time; parts are a quarter of the shortest watch, here half a second.
 TEST(Watch, TheMeanFieldLeavesTheStartUpOutToAPart) {
   ForceOverTime flow([](double t) { return 10 + 0.1 * std::sin(20 * t); });

@@ -119,7 +119,7 @@ namespace {
 bool look_at(FlowRecord& record, const FlowProblem& problem, const Watch& how, WatchProgress& progress) {
   const double unit = how.length / problem.air.speed();  // [s]
   const Record drag = record_of(record.steps, problem.air.direction());
-  // At least until the stream has been through the box.
+  // At least until the stream has been through the box, unless the wake is that of an earlier window.
   const Vec3 size = problem.grid.size, stream = problem.air.velocity;
   const auto along = [](double length, double speed) {
     return speed == 0 ? std::numeric_limits<double>::infinity() : length / std::abs(speed);
@@ -127,7 +127,7 @@ bool look_at(FlowRecord& record, const FlowProblem& problem, const Watch& how, W
   const double passage =
       std::min({along(size.x, stream.x), along(size.y, stream.y), along(size.z, stream.z)});
   const double through = std::min(passage, 0.5 * record.watched());
-  record.start_up = std::max(end_of_start_up(drag) - drag.begin, through);
+  record.start_up = std::max(end_of_start_up(drag) - drag.begin, how.developed ? 0 : through);
   record.drag = mean_over_time(drag, drag.begin + record.start_up);
   progress.mean = record.drag.mean, progress.standard_error = record.drag.standard_error;
   const double relative = record.drag.standard_error / std::abs(record.drag.mean);

@@ -19,6 +19,7 @@ struct Watch {
   double standard_error = 0.01;         // of the mean drag, relative, at which it ends
   double shortest = 25, longest = 300;  // after the start-up, and in all
   double length = 0;                    // [m], such as the canopy's inflated diameter
+  bool developed = false;               // the wake is that of an earlier window about nearly the same bodies
 };
 
 /// The plane y = 0 at one time: fields with ny = 1.
@@ -30,8 +31,9 @@ struct FlowSlice {
 /// Record of the averaging window.
 struct FlowRecord {
   std::vector<FlowStep> steps;
-  double start_up = 0;  // discarded, from the beginning of the watch: until the record has settled, and
-                        // at least until the stream has been through the box [s]
+  double start_up =
+      0;  // discarded, from the beginning of the watch: until the record has settled, and unless
+          // the wake is developed at least until the stream has been through the box [s]
   MeanOverTime drag, side_x, side_y;  // of the rest, along the stream and along x and y turned with it [N]
   Peak swing;                         // of the side force
   bool enough = false;                // the standard error reached the required value

@@ -27,6 +27,8 @@ double scatter_of_means(const std::vector<SteadyIteration>& iterations, double n
 
 FlowField averaged_flow(Flow& flow, const FlowProblem& problem, Watch window, bool in_full,
                         SteadyState& state, FlowRecord& record, const WatchReport& report) {
+  window.developed = std::any_of(state.iterations.begin(), state.iterations.end(),
+                                 [](const SteadyIteration& i) { return i.in_time; });
   if (!in_full)
     window.standard_error /= short_window, window.shortest *= short_window, window.longest *= short_window;
   FlowField field = watch(flow, problem, window, record, report);
