@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -260,7 +261,8 @@ TEST(UnsteadyRun, LeavesItsHistoryAndItsWakeInTheFolder) {
   EXPECT_NEAR(
       history.column("time_s").back() - history.column("time_s").front() + history.column("step_s")[0],
       watched.time, 1e-9);
-  EXPECT_GT(watched.start_up, 0);
+  // The wake is that of an earlier window: the stream need not pass the box of 4 m once more.
+  EXPECT_LT(watched.start_up, std::min(4.0 / 20, 0.45 * watched.time));
   EXPECT_GT(watched.mass_defect, 0);
   EXPECT_LT(watched.mass_defect, quality_limit("mass_defect").warn);
   // Of all steps without the start-up, and of every eighth field in whole parts: equal except for the error
