@@ -45,6 +45,7 @@ CLOTHS = {"flat-circular, 3 CFM (F-111)": "flat-circular-f-111", "flat-circular,
 # Percent of the nominal diameter; a vent of 1 % is smaller than a cell of the cloth and needs 7,854 nodes.
 VENTS = {4: "flat-circular-vent-4", 10: "flat-circular", 20: "flat-circular-vent-20"}
 GRIDS = {"flat-circular, 20 cells across": "flat-circular", "flat-circular, 24 cells across": "flat-circular-24",
+         "flat-circular, 28 cells across": "flat-circular-28",
          "flat-circular, half the time step": "flat-circular-half-step", "cross, 20 cells across": "cross",
          "cross, 24 cells across": "cross-24", "cross, half the time step": "cross-half-step"}
 FLIGHTS = {
@@ -54,6 +55,7 @@ FLIGHTS = {
        (("flat-circular", 25), ("extended-skirt", 20), ("cross", 25))},
     "flat-circular-30-cfm": Flight("flat-circular", 15, (F_111, "materials.f-111-physical.permeability_cfm=30")),
     **{f"{case}-24": Flight(case, duration, ("flight.cells_across=24",)) for case, duration in (("flat-circular", 30), ("cross", 6))},
+    "flat-circular-28": Flight("flat-circular", 20, ("flight.cells_across=28",)),
     **{f"{case}-half-step": Flight(case, duration, ("flight.courant=0.28",)) for case, duration in
        (("flat-circular", 30), ("cross", 6))},
 }

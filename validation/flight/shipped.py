@@ -31,7 +31,7 @@ def rows():
         value, error = number(row["C_D0 in descent"])
         yield {
             "family": row["family"],
-            "type": tomllib.loads((ROOT / f"examples/{row['family']}/case.toml").read_text())["parachute"]["type"],
+            "type": tomllib.loads((ROOT / f"validation/flight/{row['family']}.toml").read_text())["parachute"]["type"],
             "canopy_material": CLOTHS[row["cloth CFM"]],
             "drag_coefficient": value,
             "standard_error": error,
