@@ -38,6 +38,11 @@ RecoveryRequest request() {
   return r;
 }
 
+bool warns_of(const RecoveryResult& r, const char* text) {
+  return std::any_of(r.warnings.begin(), r.warnings.end(),
+                     [&](const std::string& warning) { return warning.find(text) != std::string::npos; });
+}
+
 double drag_area(const RecoveryStage& s) {
   return s.drag_coefficient * s.reference_area;
 }
@@ -184,6 +189,32 @@ TEST(Recovery, APartExceedsItsAllowableLoadIfAndOnlyIfItOpensAboveTheSafeSpeed) 
     }
 }
 
+// The forces of the flight are those at its own speed; a slower opening has smaller ones.
+TEST(Recovery, TheSafeSpeedOfAFastOpeningIsThatOfTheLoadCommand) {
+  std::vector<Setting> link = with_coefficient("descent");
+  link.push_back({"hardware.link.rated_load_n", "5000"});
+  for (const double delay : {8.0, 10.0, 20.0}) {
+    RecoveryRequest late = request();
+    late.delay = delay;
+    const RecoveryResult r = run_recovery(canopy(3.5, link), {}, late);
+    const RecoveryStage& s = r.stages[0];
+    LoadRequest asked;
+    asked.payload_mass = late.mass, asked.height = s.height + late.ground, asked.path_angle = s.path_angle;
+    const SafeSpeed alone = run_fastest(canopy(3.5, link), asked).design();
+    ASSERT_TRUE(s.safe.lowest && alone.lowest) << delay;
+    EXPECT_NEAR(*s.safe.lowest / *alone.lowest, 1, 0.01) << delay;
+    EXPECT_TRUE(warns_of(r, "the fastest safe deployment is")) << delay;
+  }
+}
+
+TEST(Recovery, WarnsOfAnOpeningWithoutASafeSpeed) {
+  const RecoveryResult r =
+      run_recovery(canopy(3.5, {{"hardware.link.rated_load_n", "50"}}), canopy(0.7), request());
+  ASSERT_TRUE(r.stages[1].safe.unsafe_at);
+  EXPECT_TRUE(warns_of(r, "main: it opens at up to "));
+  EXPECT_TRUE(warns_of(r, "no speed is safe (infinite mass): the link does not keep its margin"));
+}
+
 TEST(Recovery, ASnatchLoadAboveTheDesignLoadDeterminesTheHardware) {
   const Settings main = canopy(3.5, {{"deployment.ejection_impulse_n_s", "300"}});
   const RecoveryStage s = run_recovery(main, canopy(0.7), request()).stages[1];
@@ -269,11 +300,6 @@ TEST(Recovery, ADrogueThatOpensSlowerThanItDescendsCarriesTheWeight) {
   slow.speed = 2, slow.delay = 0.5;
   const RecoveryStage drogue = run_recovery(canopy(3.5), canopy(0.7), slow).stages[0];
   EXPECT_GT(drogue.design_load, 0.99 * 22 * standard_gravity);
-}
-
-bool warns_of(const RecoveryResult& r, const char* text) {
-  return std::any_of(r.warnings.begin(), r.warnings.end(),
-                     [&](const std::string& warning) { return warning.find(text) != std::string::npos; });
 }
 
 TEST(Recovery, WarnsOfAnOpeningBeyondTheRangeOfTheLoadModel) {

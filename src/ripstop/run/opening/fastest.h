@@ -2,6 +2,7 @@
 // method of run_load(): `ripstop load --fastest`.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -81,10 +82,11 @@ std::string to_json(const FastestResult& result);
 /// openings (opening_scatter), as independent parts. Lines, riser and hardware also have to carry the snatch load at that
 /// speed (snatch_of()), which is taken without an uncertainty. The design method is a coupled opening that has filled,
 /// else infinite mass or a larger load of the computed opening. `known` replaces load_uncertainty() of the drag
-/// coefficient, and the canopy carries the `least_load` [N] at any speed. Throws Error(usage) as run_load(), for a margin
+/// coefficient, and the canopy carries at least `least_load` [N], a function of the speed [m/s]. Throws Error(usage) as run_load(), for a margin
 /// below 0, and for a parachute in which no strength of lines, tape, riser and hardware is known.
 FastestResult run_fastest(const Settings& resolved, const LoadRequest& request, double margin = 0,
-                          std::optional<LoadUncertainty> known = {}, double least_load = 0);
+                          std::optional<LoadUncertainty> known = {},
+                          const std::function<double(double)>& least_load = {});
 
 /// result.json.
 void write_fastest(const std::filesystem::path& folder, const FastestResult& result);
