@@ -84,6 +84,32 @@ TEST(RecoveryCommand, StatesAShortLengthInMillimetres) {
       << us.output;
 }
 
+// One qualification of every number that follows from the load of a heavy payload.
+TEST(RecoveryCommand, QualifiesTheNumbersOfAHeavyPayloadAndTakesAMeasuredLoad) {
+  const TemporaryFolder folder("recovery");
+  const std::vector<std::string> heavy = recovery(folder, {"--mass", "300"});
+  const std::string output = ripstop_with(heavy).output;
+  for (const char* row : {"margins and hardware", "required hardware", "fastest safe deployment"})
+    EXPECT_TRUE(std::regex_search(
+        output, std::regex(std::string(row) + ".*the payload is heavy: compute or measure the opening")))
+        << row << "\n"
+        << output;
+  const Finished measured = ripstop_with(
+      recovery(folder, {"--mass", "300", "--drogue-measured-load", "5000", "--main-measured-load", "9e4"}));
+  EXPECT_EQ(measured.code, 0) << measured.output;
+  EXPECT_EQ(measured.output.find("the payload is heavy"), std::string::npos) << measured.output;
+  EXPECT_NE(measured.output.find("not computed: a measured load is that at one speed"), std::string::npos);
+}
+
+TEST(RecoveryCommand, StatesWarningsInBothUnits) {
+  const TemporaryFolder folder("recovery");
+  const Finished run = ripstop_with(
+      recovery(folder, {"--mass", "22", "--units", "us", "--set", "hardware.link.rated_load_n=100"}));
+  EXPECT_TRUE(std::regex_search(
+      run.output, std::regex("warning: main: link exceeds its allowable load: its load of [0-9.]+ N \\(")))
+      << run.output;
+}
+
 int count_of(const std::string& part, const std::string& text) {
   int count = 0;
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
@@ -98,7 +124,7 @@ TEST(RecoveryCommand, AdvisesOnceOnTheHeavyPayloadOfSeveralParachutes) {
        {"drogue: the payload is heavy for this canopy (mass ratio R_m = rho (C_D S)^1.5 / m = ",
         "; main: the payload is heavy for this canopy (mass ratio R_m = "})
     EXPECT_EQ(count_of(text, run.output), 1) << text << "\n" << run.output;
-  EXPECT_EQ(count_of("Compute the opening at the airspeed V", run.output), 1) << run.output;
+  EXPECT_EQ(count_of("Compute the opening: ripstop inflate", run.output), 1) << run.output;
 }
 
 TEST(RecoveryCommand, RefusesAUnitOfAnotherQuantityAndAnUnknownChoiceOfUnits) {

@@ -24,7 +24,6 @@
 #include "ripstop/run/opening/handbook.h"
 #include "ripstop/run/opening/snatch.h"
 #include "ripstop/run/steady/warnings.h"
-#include "ripstop/run/used_run.h"
 
 namespace ripstop::inline run {
 namespace {
@@ -41,6 +40,9 @@ struct RecoveryCanopy {
   DragCoefficient drag;
   DescentDrag range;
   double area = 0, mass = 0;  // S0 [m2], [kg]
+  std::filesystem::path opening;
+  std::optional<double> measured_load;  // [N]
+  LoadInputs inputs;
 };
 
 /// Which coefficient of each parachute a flight has.
@@ -92,12 +94,24 @@ LoadRequest opening_of(const RecoveryCanopy& canopy, double drag_coefficient, co
   asked.speed = state.speed, asked.height = state.height, asked.ground = request.ground;
   asked.path_angle = std::clamp(state.path_angle, -90.0, 90.0);
   asked.drag_coefficient = drag_coefficient;
+  asked.opening = canopy.opening, asked.measured_load = canopy.measured_load;
   asked.descent = false;
   // Slower than it will descend, as soon after apogee: methods without gravity; the trajectory has the weight.
   if (state.speed <= 1.001 * slowest_opening(mass, drag_coefficient * canopy.area,
                                              standard_air(state.height).density, asked.path_angle))
     asked.path_angle = 0;
   return asked;
+}
+
+LoadResult load_of(const RecoveryCanopy& canopy, const LoadRequest& asked) {
+  LoadInputs inputs = canopy.inputs;
+  inputs.drag = opening_drag_coefficient(canopy.resolved, asked);
+  return run_load(canopy.resolved, asked, inputs);
+}
+
+/// A measured load or a computed opening replaces the filling of the handbook.
+bool replaces_filling(const LoadResult& load) {
+  return load.design_method.empty() || load.design_method == computed_method;
 }
 
 /// A canopy fills, and is then open until the next opening or the ground.
@@ -125,15 +139,19 @@ double peak_force_at(double speed, const RecoveryCanopy& canopy, const FlownStag
   FlightState state = stage.opening;
   state.speed = speed;
   const double mass = stage.load.payload_mass + canopy.mass;
-  const StageLegs legs = legs_of(
-      run_load(canopy.resolved, opening_of(canopy, stage.load.drag_coefficient, state, mass, request)),
-      stage.others, stage.end_height);
+  const LoadResult load =
+      load_of(canopy, opening_of(canopy, stage.load.drag_coefficient, state, mass, request));
+  const StageLegs legs = legs_of(load, stage.others, stage.end_height);
   double peak = 0;
-  for (const Leg& leg : {legs.filling, legs.open}) {
-    if (state.height <= stage.end_height) break;
+  const auto fly_leg = [&](const Leg& leg) {
+    double highest = 0;
     for (const FlightRow& row : fly(state, mass, leg))
-      peak = std::max(peak, force_on_canopy(row, stage.others));
-  }
+      highest = std::max(highest, force_on_canopy(row, stage.others));
+    return highest;
+  };
+  const double filling_peak = fly_leg(legs.filling);
+  if (!replaces_filling(load)) peak = filling_peak;
+  if (state.height > stage.end_height) peak = std::max(peak, fly_leg(legs.open));
   return peak;
 }
 
@@ -164,17 +182,18 @@ class RecoveryFlight {
  private:
   void fly_stage(std::size_t i) {
     const RecoveryCanopy& canopy = canopies_[i];
-    FlownStage stage{state_, run_load(canopy.resolved,
-                                      opening_of(canopy, drag_at(end_, canopy), state_, mass_, request_))};
+    FlownStage stage{state_,
+                     load_of(canopy, opening_of(canopy, drag_at(end_, canopy), state_, mass_, request_))};
     ++open_;
     const StageLoads& opening = stage.load.stages.front();
     stage.others = body_area_ + (request_.drogue_released ? 0 : before_);
     stage.end_height = request_.ground + (i + 1 < canopies_.size() ? request_.main_height : 0.0);
     const StageLegs legs = legs_of(stage.load, stage.others, stage.end_height);
     const double begin = state_.time, drift = drift_;
-    const std::size_t first = flown_.rows.size();
+    std::size_t first = flown_.rows.size();
     append(legs.filling);
     stage.filled = state_.time - begin >= opening.filling_time;
+    if (replaces_filling(stage.load)) first = flown_.rows.size();
     if (state_.height > stage.end_height) append(legs.open);
     for (std::size_t k = first; k < flown_.rows.size(); ++k)
       stage.peak_force = std::max(stage.peak_force, force_on_canopy(flown_.rows[k].flight, stage.others));
@@ -261,14 +280,19 @@ EndOpening opening_at(DragEnd end, const RecoveryCanopy& canopy, std::size_t i,
   const auto [slowest, fastest] = std::minmax_element(flights.begin(), flights.end(), faster);
   const FlownStage& stage = (high ? *fastest : *slowest).stages[i];
   EndOpening opening;
-  opening.uncertainty = uncertainty_at(end, canopy);
+  opening.asked =
+      opening_of(canopy, canopy.drag.value, stage.opening, stage.load.payload_mass + canopy.mass, request);
+  if (canopy.measured_load)
+    opening.asked.measured_load =
+        *canopy.measured_load * std::pow(stage.opening.speed / flights[0].stages[i].opening.speed, 2);
+  opening.load = load_of(canopy, opening.asked);
+  opening.uncertainty = canopy.measured_load ? LoadUncertainty{opening.load.load_uncertainty,
+                                                               opening.load.load_uncertainty_from}
+                                             : uncertainty_at(end, canopy);
   double peak = stage.peak_force;
   for (const Flown& flown : flights)
     peak = high ? std::max(peak, flown.stages[i].peak_force) : std::min(peak, flown.stages[i].peak_force);
   opening.least_load = least_load(end, peak, opening.uncertainty);
-  opening.asked =
-      opening_of(canopy, canopy.drag.value, stage.opening, stage.load.payload_mass + canopy.mass, request);
-  opening.load = run_load(canopy.resolved, opening.asked);
   return opening;
 }
 
@@ -349,7 +373,8 @@ RecoveryStage stage_of(const RecoveryCanopy& canopy, std::size_t i, const std::v
   if (s.separation_load) add_separation(canopy.resolved, *s.separation_load, *s.margins);
   s.hardware = hardware_need(std::max({s.highest_design_load, largest_snatch, s.separation_load.value_or(0)}),
                              canopy.resolved.margins());
-  s.safe = safe_speed_of(canopy, i, flights, high, request);
+  s.design_load_caution = load.design_load_caution;
+  if (!canopy.measured_load) s.safe = safe_speed_of(canopy, i, flights, high, request);
   s.descent_rate = ranged(flights, [&](const Flown& f) { return f.stages[i].end_speed; });
   s.duration = ranged(flights, [&](const Flown& f) { return f.stages[i].duration; });
   s.drift = ranged(flights, [&](const Flown& f) { return f.stages[i].drift; });
@@ -361,36 +386,42 @@ RecoveryStage stage_of(const RecoveryCanopy& canopy, std::size_t i, const std::v
     for (const std::string& text : texts) warnings.push_back(fmt::format("{}: {}", canopy.name, text));
   };
   warn(strain_warnings(canopy.resolved, 0)), warn(hardware_warnings(canopy.resolved)),
-      warn(margin_warnings(s.margins));
+      warn(margin_warnings(s.margins)), warn(load.opening_warnings);
   warn(outside_range(infinite_mass_model,
                      {{"Mach number", s.speed.high / standard_air(flown.opening.height).sound_speed}}));
   if (!flown.filled)
     warnings.push_back(fmt::format("{}: it opens too low: it is not filled after {:.3g} s, when {}",
                                    canopy.name, flown.duration,
                                    i + 1 < flights[0].stages.size() ? "the main opens" : "the rocket lands"));
-  if (s.safe.lowest && s.speed.high > *s.safe.lowest) {
-    const auto [speed, safe] = rounded_apart(s.speed.high, *s.safe.lowest);
+  if (s.safe && s.safe->lowest && s.speed.high > *s.safe->lowest) {
+    const auto [speed, safe] = rounded_apart(s.speed.high, *s.safe->lowest);
     warnings.push_back(fmt::format("{}: it opens at up to {} m/s; the fastest safe deployment is {} m/s ({})",
-                                   canopy.name, speed, safe, s.safe.method));
-  } else if (s.safe.unsafe_at) {
+                                   canopy.name, speed, safe, s.safe->method));
+  } else if (s.safe && s.safe->unsafe_at) {
     warnings.push_back(fmt::format(
         "{}: it opens at up to {} m/s; no speed is safe ({}): the {} does not keep its margin at {} m/s "
         "either",
-        canopy.name, rounded(s.speed.high, 3), s.safe.method, s.safe.member, rounded(*s.safe.unsafe_at, 3)));
+        canopy.name, rounded(s.speed.high, 3), s.safe->method, s.safe->member,
+        rounded(*s.safe->unsafe_at, 3)));
   }
   return s;
 }
 
-RecoveryCanopy canopy_of(const char* name, const Settings& resolved, const std::filesystem::path& steady) {
+RecoveryCanopy canopy_of(const char* name, const Settings& resolved, const std::filesystem::path& steady,
+                         const std::filesystem::path& opening, std::optional<double> measured_load) {
   LoadRequest asked;
-  asked.steady = steady;
-  const DragCoefficient drag = opening_drag_coefficient(resolved, asked);
+  asked.steady = steady, asked.opening = opening;
+  LoadInputs inputs = load_inputs(resolved, asked);
+  const DragCoefficient drag = inputs.drag;
   return {name,
           resolved,
           drag,
           descent_drag(resolved, drag),
           nominal_area(resolved.parachute()),
-          parachute_mass(resolved)};
+          parachute_mass(resolved),
+          opening,
+          measured_load,
+          std::move(inputs)};
 }
 
 }  // namespace
@@ -401,15 +432,19 @@ RecoveryResult run_recovery(const Settings& main, const std::optional<Settings>&
   if (drogue) require_one_canopy(*drogue, "a recovery");
   check_recovery(request, drogue.has_value());
   std::vector<RecoveryCanopy> canopies;
-  if (drogue) canopies.push_back(canopy_of("drogue", *drogue, request.drogue_steady));
-  canopies.push_back(canopy_of("main", main, request.main_steady));
+  if (drogue)
+    canopies.push_back(canopy_of("drogue", *drogue, request.drogue_steady, request.drogue_opening,
+                                 request.drogue_measured_load));
+  canopies.push_back(
+      canopy_of("main", main, request.main_steady, request.main_opening, request.main_measured_load));
   const Wind& wind = main.flight().wind;
   const double body = request.body_drag_area.value_or(main.payload().drag_area_m2);
   std::vector<Flown> flights;
   for (const DragEnd end : {DragEnd::nominal, DragEnd::low, DragEnd::high})
     flights.push_back(RecoveryFlight(canopies, request, wind, body, end).fly_down());
   RecoveryResult r;
-  r.warnings = warnings_of_used({request.drogue_steady, request.main_steady});
+  for (const RecoveryCanopy& canopy : canopies)
+    r.warnings.insert(r.warnings.end(), canopy.inputs.warnings.begin(), canopy.inputs.warnings.end());
   r.title = main.title(), r.mass = r.total_mass = request.mass;
   for (const RecoveryCanopy& canopy : canopies) r.total_mass += canopy.mass;
   if (const double all = std::accumulate(request.sections.begin(), request.sections.end(), 0.0);

@@ -14,6 +14,7 @@
 #include "ripstop/core/file.h"
 #include "ripstop/core/words.h"
 #include "ripstop/run/json.h"
+#include "ripstop/run/opening/handbook.h"
 #include "ripstop/run/steady/warnings.h"
 
 namespace ripstop::inline run {
@@ -159,7 +160,7 @@ std::string printed(const std::optional<double>& speed) {
 
 /// Which speed to use. Infinite mass and the finite-mass methods may differ by a factor of three and more, as a large
 /// canopy slows a light payload down during a long filling.
-std::string advice_of(const FastestResult& r, double filling_distance, bool caution) {
+std::string advice_of(const FastestResult& r, double filling_distance) {
   const SafeSpeed& design = r.design();
   if (design.unsafe_at && r.snatch && r.snatch->largest() > design.load)
     return fmt::format(
@@ -176,8 +177,9 @@ std::string advice_of(const FastestResult& r, double filling_distance, bool caut
   std::string text = fmt::format(
       "{}{}, the safe speed for infinite mass, in which the speed does not decrease during "
       "filling. Not included: failure of a reefing line{} and the stress of the cloth",
-      caution ? "at most " : "", printed(design.lowest), r.snatch ? "" : ", the snatch load");
-  if (caution) text += ". The payload is heavy: compute or measure the opening first (see the warning)";
+      r.design_load_caution.empty() ? "" : "at most ", printed(design.lowest),
+      r.snatch ? "" : ", the snatch load");
+  text += heavy_payload_note(r.design_load_caution);
   if (r.snatch && r.snatch->largest() > (1 + r.load_uncertainty) * design.load)
     text += fmt::format(". At this speed the snatch load of {} N is larger than the opening load",
                         rounded(r.snatch->largest()));
@@ -245,8 +247,9 @@ FastestResult run_fastest(const Settings& resolved, const LoadRequest& request, 
     r.methods.push_back(safe_speed(resolved, loads, m.method, slowest, r));
   r.snatch = loads.snatch(r.design().unsafe_at ? slowest : r.design().lowest.value_or(fastest_deployment));
   if (r.snatch && r.snatch->other_load) r.warnings.push_back(two_snatch_loads(*r.snatch));
-  r.advice = advice_of(r, fast.filling_constant, !fast.design_load_caution.empty());
-  if (!fast.design_load_caution.empty()) r.warnings.push_back(fast.design_load_caution);
+  r.design_load_caution = fast.design_load_caution;
+  r.advice = advice_of(r, fast.filling_constant);
+  if (!r.design_load_caution.empty()) r.warnings.push_back(r.design_load_caution);
   for (std::string& text : strain_warnings(resolved, 0)) r.warnings.push_back(std::move(text));
   for (std::string& text : hardware_warnings(resolved)) r.warnings.push_back(std::move(text));
   if (r.design().unsafe_at)

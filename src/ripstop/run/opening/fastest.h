@@ -49,8 +49,9 @@ struct FastestResult {
   double margin = 0;            // of safety that every member keeps
   double load_uncertainty = 0;  // relative
   std::string load_uncertainty_from;
-  std::string design_method;  // of `methods`: whose lowest speed is the answer
-  std::string advice;         // which speed to use, and why the methods differ
+  std::string design_method;        // of `methods`: whose lowest speed is the answer
+  std::string design_load_caution;  // of the load; empty: none
+  std::string advice;               // which speed to use, and why the methods differ
   std::vector<SafeSpeed> methods;
   std::optional<SnatchResult> snatch;  // at the speed of the advice; absent: no speed difference is given
   std::vector<std::string> warnings;
@@ -70,6 +71,7 @@ void each_member(T& r, Visit&& visit) {
   visit("load_uncertainty", r.load_uncertainty);
   visit("load_uncertainty_from", r.load_uncertainty_from);
   visit("design_method", r.design_method);
+  visit("design_load_caution", r.design_load_caution);
   visit("advice", r.advice);
   visit("methods", r.methods);
   visit("snatch", r.snatch);
