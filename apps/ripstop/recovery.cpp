@@ -159,7 +159,8 @@ void add_flight(CLI::App& command, CLI::Option* drogue, RecoveryArguments& optio
   add_number(command, "--apogee", options.apogee, above(0).up_to(highest_height),
              "Apogee above the ground [m]");
   options.main_height = add_number(command, "--main-height", r.main_height, above(0).up_to(highest_height),
-                                   "Height above the ground at which the main opens, with a drogue [m]");
+                                   "Height above the ground at which the main opens, with a drogue [m]")
+                            ->default_str(fmt::format("{:g} with --drogue", r.main_height));
   add_number(command, "--speed", r.speed, above(0).up_to(1000),
              "Horizontal airspeed at apogee [m/s]; the default is assumed");
   add_number(command, "--delay", r.delay, from(0).up_to(1000), "Time from apogee to the first opening [s]");

@@ -87,7 +87,7 @@ TEST(RecoveryCommand, StatesAShortLengthInMillimetres) {
 // One qualification of every number that follows from the load of a heavy payload.
 TEST(RecoveryCommand, QualifiesTheNumbersOfAHeavyPayloadAndTakesAMeasuredLoad) {
   const TemporaryFolder folder("recovery");
-  const std::vector<std::string> heavy = recovery(folder, {"--mass", "300"});
+  const std::vector<std::string> heavy = recovery(folder, {"--mass", "22"});
   const std::string output = ripstop_with(heavy).output;
   for (const char* row : {"margins and hardware", "required hardware", "fastest safe deployment"})
     EXPECT_TRUE(std::regex_search(
@@ -95,7 +95,7 @@ TEST(RecoveryCommand, QualifiesTheNumbersOfAHeavyPayloadAndTakesAMeasuredLoad) {
         << row << "\n"
         << output;
   const Finished measured = ripstop_with(
-      recovery(folder, {"--mass", "300", "--drogue-measured-load", "5000", "--main-measured-load", "9e4"}));
+      recovery(folder, {"--mass", "22", "--drogue-measured-load", "500", "--main-measured-load", "5000"}));
   EXPECT_EQ(measured.code, 0) << measured.output;
   EXPECT_EQ(measured.output.find("the payload is heavy"), std::string::npos) << measured.output;
   EXPECT_NE(measured.output.find("not computed: a measured load is that at one speed"), std::string::npos);
@@ -144,6 +144,24 @@ TEST(RecoveryCommand, RefusesAHeightOfTheMainWithoutADrogue) {
   EXPECT_EQ(run.code, 2);
   EXPECT_NE(run.output.find("--main-height"), std::string::npos) << run.output;
   EXPECT_NE(run.output.find("--drogue"), std::string::npos) << run.output;
+  EXPECT_NE(run.output.find("--delay"), std::string::npos) << run.output;
+}
+
+TEST(RecoveryCommand, RefusesABayDiameterInInchesWithoutTheirUnit) {
+  const TemporaryFolder folder("recovery");
+  const Finished run = ripstop_with(recovery(folder, {"--mass", "22", "--bay-diameter", "6"}));
+  EXPECT_EQ(run.code, 2);
+  EXPECT_NE(run.output.find("--bay-diameter = 6: must be above 0 and at most 2 m"), std::string::npos)
+      << run.output;
+}
+
+TEST(RecoveryCommand, RefusesAPartWithTwoStrengths) {
+  const TemporaryFolder folder("recovery");
+  const Finished run = ripstop_with(recovery(folder, {"--mass", "22", "--set", "hardware.link.rated_load_n=1",
+                                                      "--set", "hardware.link.breaking_load_n=2"}));
+  EXPECT_EQ(run.code, 2);
+  EXPECT_NE(run.output.find("has breaking_load_n and rated_load_n: give only one of them"), std::string::npos)
+      << run.output;
 }
 
 // A light payload under a large canopy: the design load is that of infinite mass, although the speed decreases.

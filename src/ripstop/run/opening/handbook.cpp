@@ -49,7 +49,7 @@ std::vector<MethodLoad> handbook_methods(const Settings& resolved, double speed)
 std::optional<FiniteMassRange> finite_mass_range(const std::vector<MethodLoad>& methods) {
   std::optional<FiniteMassRange> range;
   for (const MethodLoad& m : methods) {
-    if (!m.applies || m.method == infinite_mass_method) continue;
+    if (!m.applies || m.method == infinite_mass_method || m.method == computed_method) continue;
     if (!range) range = {m.load, m.load};
     range->lowest = std::min(range->lowest, m.load), range->highest = std::max(range->highest, m.load);
   }
