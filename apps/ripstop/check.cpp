@@ -108,7 +108,7 @@ void print(const Settings& resolved, const CaseSummary& s, std::size_t warnings)
   row("air",
       fmt::format("{:.4g} m/s, {:.4g} kg/m3 ({}){}", s.air.speed, s.air.density, s.air_source,
                   resolved.payload().mass_kg ? "; initial speed of a steady run with the payload" : ""));
-  row("deployment", fmt::format("{:.4g} m/s ({}): tape without parachute.tape.material, and warnings below",
+  row("deployment", fmt::format("{:.4g} m/s ({}): tape without parachute.tape.material, and margins",
                                 s.deployment.speed, s.deployment.from));
   row("problems", warnings == 0
                       ? "none"

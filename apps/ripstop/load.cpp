@@ -24,6 +24,7 @@
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/run/opening/fastest.h"
 #include "ripstop/run/opening/filling.h"
+#include "ripstop/run/opening/handbook.h"
 #include "units_option.h"
 #include "warnings.h"
 
@@ -129,7 +130,7 @@ void print_fastest(const FastestResult& r, const fs::path& folder, const std::op
   print_replaced_mass(mass, resolved);
   print_text("  at line stretch: path {:.3g} deg below the horizon, {}\n", r.path_angle,
              air_text(r.height, r.density, r.air_source));
-  print_text("  FASTEST SAFE DEPLOYMENT {}\n", safe_speed_text(r.design()));
+  print_text("  FASTEST SAFE DEPLOYMENT {}\n", safe_speed_text(r.design(), r.design_load_caution));
   print_text(
       "  margin of safety {:g} of tape or hem, lines, riser and hardware (the cloth is not checked); "
       "uncertainty of the load {:.0f} %: {}\n\n",
@@ -169,10 +170,11 @@ void print_result(const LoadResult& r, const fs::path& folder, const std::option
         "  Select tape for this load, and lines, riser and hardware for the snatch load of {:.1f} N.\n",
         r.required_load);
   else
-    print_text("  Select lines, tape, riser and hardware for this load{}.\n",
+    print_text("  Select lines, tape, riser and hardware for this load{}{}.\n",
                r.smallest_margin ? fmt::format(": margin of safety {}, {}", margin_text(*r.smallest_margin),
                                                r.smallest_margin_member)
-                                 : "");
+                                 : "",
+               heavy_payload_note(r.design_load_caution));
   if (r.stages.size() > 1)
     print_text(
         "  The speed of a later stage is that of the trajectory: the design load requires that the reefed "
@@ -187,7 +189,7 @@ void print_result(const LoadResult& r, const fs::path& folder, const std::option
         "one.\n");
   print_text("  The load of an \"estimate\" is expected if the canopy fills as that method assumes.\n");
   if (r.margins && r.highest_margins) print_margins(*r.margins, *r.highest_margins, snatch);
-  print_row("required hardware", hardware_text(r.hardware));
+  print_row("required hardware", hardware_text(r.hardware, r.design_load_caution));
   std::string caution;
   const StageLoads* before = nullptr;
   for (const StageLoads& stage : r.stages) {

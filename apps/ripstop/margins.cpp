@@ -8,6 +8,7 @@
 
 #include "ripstop/core/words.h"
 #include "ripstop/parachute/cut.h"
+#include "ripstop/run/opening/handbook.h"
 #include "units_option.h"
 
 namespace ripstop::cli {
@@ -43,14 +44,15 @@ void print_weakest(const Margins& margins, const std::string& under) {
   const Margin& m = *weakest(margins);
   const bool with_cloth = std::any_of(margins.members.begin(), margins.members.end(),
                                       [](const Margin& each) { return each.member == "cloth"; });
-  print_row("weakest member",
-            fmt::format("{}{}: {} {} {} times safety factor {:.3g}, allowable load {} {} ({:.0f} % of the "
-                        "{}); margin of safety {}{}{}",
-                        under, m.member, m.load_from.value_or("load"), rounded(m.load), m.unit,
-                        *m.used * *m.strength * m.knock_down / m.load, rounded(*m.strength * m.knock_down),
-                        m.unit, 100 * m.knock_down, m.strength_from, margin_text(*m.margin),
-                        *m.margin < 0 ? ": ALLOWABLE LOAD EXCEEDED" : "",
-                        with_cloth ? "" : "; the cloth is not checked"));
+  print_row(
+      "weakest member",
+      fmt::format("{}{}: {} {} {} times safety factor {:.3g}, allowable load {} {} ({:.0f} % of the "
+                  "{}); margin of safety {}{}{}",
+                  under, m.member, m.load_from.value_or("load"), rounded(m.load), m.unit,
+                  *m.used * *m.strength * m.knock_down / m.load, rounded(*m.strength * m.knock_down), m.unit,
+                  100 * m.knock_down, m.strength_from, margin_text(*m.margin),
+                  *m.margin < 0 ? ": ALLOWABLE LOAD EXCEEDED" : "",
+                  with_cloth ? "" : "; the cloth is not checked (ripstop inflate computes its stress)"));
 }
 
 }  // namespace
@@ -90,11 +92,12 @@ std::string finite_mass_text(const std::optional<double>& lowest, const std::opt
                      *highest < design_load ? "not for design" : "the largest is the design load");
 }
 
-std::string hardware_text(const HardwareNeed& need) {
+std::string hardware_text(const HardwareNeed& need, const std::string& caution) {
   return fmt::format(
-      "each swivel, link or cord needs a rated load of {} N, or a breaking load of {} N (metal) or {} N "
-      "(textile)",
-      rounded(need.rated), rounded(need.metal), rounded(need.textile));
+      "each swivel, link or cord needs {}a rated load of {} N, or a breaking load of {} N (metal) or {} N "
+      "(textile){}",
+      caution.empty() ? "" : "at least ", rounded(need.rated), rounded(need.metal), rounded(need.textile),
+      heavy_payload_note(caution));
 }
 
 void print_replaced_mass(const std::optional<double>& given, const Settings& resolved) {
@@ -121,15 +124,16 @@ std::string packed_text(double mass, double volume) {
   return text;
 }
 
-std::string safe_speed_text(const SafeSpeed& s) {
+std::string safe_speed_text(const SafeSpeed& s, const std::string& caution) {
   if (s.unsafe_at)
     return fmt::format("NONE: the {} does not keep its margin at {:.1f} m/s", s.member, *s.unsafe_at);
   const auto text = [](const std::optional<double>& speed) {
     return speed ? fmt::format("{:.1f}", *speed) : fmt::format("above {:g}", fastest_deployment);
   };
   if (!s.lowest) return fmt::format("no limit up to {:g} m/s (Mach 0.8)", fastest_deployment);
-  return fmt::format("{} m/s ({} m/s without the uncertainty of the load), limited by {}", text(s.lowest),
-                     text(s.speed), s.member);
+  return fmt::format("{}{} m/s ({} m/s without the uncertainty of the load), limited by {}{}",
+                     caution.empty() ? "" : "at most ", text(s.lowest), text(s.speed), s.member,
+                     heavy_payload_note(caution));
 }
 
 std::string weakest_text(const std::optional<Margins>& margins) {

@@ -28,10 +28,10 @@ void print_replaced_mass(const std::optional<double>& given, const Settings& res
 void print_separation();
 /// Volume of the packed parachute alone, and at the density of a loose packing.
 std::string packed_text(double mass, double volume);
-/// Strength that each part of the hardware needs.
-std::string hardware_text(const HardwareNeed& need);
+/// Strength that each part of the hardware needs. `caution`: LoadResult::design_load_caution.
+std::string hardware_text(const HardwareNeed& need, const std::string& caution);
 /// "11 m/s (12.3 m/s without the uncertainty of the load), limited by line", or that there is none.
-std::string safe_speed_text(const SafeSpeed& safe);
+std::string safe_speed_text(const SafeSpeed& safe, const std::string& caution = {});
 /// ", riser: margin of safety -0.85, ALLOWABLE LOAD EXCEEDED"; empty where no strength is known.
 std::string weakest_text(const std::optional<Margins>& margins);
 

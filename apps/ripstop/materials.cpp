@@ -138,12 +138,13 @@ int run(const MaterialsArguments& options) {
     return 0;
   }
   MaterialList list = library_materials();
-  if (options.kind != "all")
-    std::erase_if(list.materials, [&](const MaterialEntry& m) { return m.kind != options.kind; });
+  const std::string kind = options.kind == "cloth" ? "fabric" : options.kind;
+  if (kind != "all")
+    std::erase_if(list.materials, [&](const MaterialEntry& m) { return m.kind != kind; });
   if (options.json)
     fmt::print("{}", to_json(list));
   else
-    print_list(list, options.kind);
+    print_list(list, kind);
   return 0;
 }
 
@@ -161,7 +162,7 @@ void add_materials(CLI::App& app, int& status) {
                           ->add_option("material", options->name,
                                        "Name of a material of the library, or a material file (.toml)")
                           ->default_str("all of the library");
-  add_choice(*command, "--kind", options->kind, {"all", "fabric", "line", "tape"},
+  add_choice(*command, "--kind", options->kind, {"all", "cloth", "fabric", "line", "tape"},
              "Kind of the listed materials")
       ->excludes(name);
   add_units_option(*command);

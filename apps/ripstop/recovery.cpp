@@ -16,6 +16,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/words.h"
 #include "ripstop/flight/atmosphere.h"
+#include "ripstop/run/opening/handbook.h"
 #include "ripstop/run/sizing/pattern.h"
 #include "units_option.h"
 #include "warnings.h"
@@ -30,6 +31,7 @@ struct RecoveryArguments {
   Overrides overrides;
   std::optional<double> mass, apogee;
   RecoveryRequest request;
+  CLI::Option* main_height = nullptr;
   bool json = false;
 };
 
@@ -67,14 +69,16 @@ void print_stage(const RecoveryStage& s, bool wind) {
     print_row("separation load",
               fmt::format("{} N on the shock cord when two sections separate", rounded(*s.separation_load)));
   print_row("margins and hardware",
-            fmt::format("under {} N, the highest design load{}", rounded(s.highest_design_load),
+            fmt::format("under {} N, the highest design load{}{}", rounded(s.highest_design_load),
                         s.separation_load == s.hardware.rated ? "; of hardware under the separation load"
                         : s.hardware.rated > s.highest_design_load
                             ? "; of lines, riser and hardware under the snatch load"
-                            : ""));
+                            : "",
+                        heavy_payload_note(s.design_load_caution)));
   print_margins(s.margins);
-  print_row("required hardware", hardware_text(s.hardware));
-  print_row("fastest safe deployment", safe_speed_text(s.safe));
+  print_row("required hardware", hardware_text(s.hardware, s.design_load_caution));
+  print_row("fastest safe deployment", s.safe ? safe_speed_text(*s.safe, s.design_load_caution)
+                                              : "not computed: a measured load is that at one speed");
   print_row("rate of descent at the end", range_text(s.descent_rate, "m/s"));
   print_row("duration", range_text(s.duration, "s"));
   if (wind) print_row("drift", range_text(s.drift, "m"));
@@ -82,7 +86,8 @@ void print_stage(const RecoveryStage& s, bool wind) {
   if (s.bay_length)
     print_row(
         "length in the bay",
-        fmt::format("{} at this density, {} packed loosely", length_text(*s.bay_length),
+        fmt::format("{} at this density, {} packed loosely; without harness and protector",
+                    length_text(*s.bay_length),
                     length_text(*s.bay_length * std::max(1.0, s.mass / (loosely_packed * s.packed_volume)))));
 }
 
@@ -129,6 +134,11 @@ int recovery(RecoveryArguments& options) {
     throw Error(ExitCode::usage,
                 "the descending mass is missing: give --mass KG, or [payload] mass_kg in the "
                 "case of the main parachute");
+  if (!drogue && options.main_height->count() > 0)
+    throw Error(
+        ExitCode::usage,
+        "--main-height needs --drogue: give both. Without a drogue the main opens at apogee, or at the "
+        "time --delay after it; the output states its height then");
   if (!options.apogee)
     throw Error(ExitCode::usage, "the apogee is missing: give --apogee M, above the ground");
   options.request.apogee = *options.apogee;
@@ -148,9 +158,9 @@ void add_flight(CLI::App& command, CLI::Option* drogue, RecoveryArguments& optio
       ->default_str("payload.mass_kg of the main's case");
   add_number(command, "--apogee", options.apogee, above(0).up_to(highest_height),
              "Apogee above the ground [m]");
-  add_number(command, "--main-height", r.main_height, above(0).up_to(highest_height),
-             "Height above the ground at which the main opens, with a drogue [m]")
-      ->needs(drogue);
+  options.main_height = add_number(command, "--main-height", r.main_height, above(0).up_to(highest_height),
+                                   "Height above the ground at which the main opens, with a drogue [m]")
+                            ->default_str(fmt::format("{:g} with --drogue", r.main_height));
   add_number(command, "--speed", r.speed, above(0).up_to(1000),
              "Horizontal airspeed at apogee [m/s]; the default is assumed");
   add_number(command, "--delay", r.delay, from(0).up_to(1000), "Time from apogee to the first opening [s]");
@@ -191,14 +201,25 @@ void add_recovery(CLI::App& app, int& status) {
   add_run_folder(*command, "--drogue-steady", r.drogue_steady,
                  "Run folder of ripstop steady or fly with the drag area of the drogue")
       ->needs(drogue);
+  add_run_folder(*command, "--main-opening", r.main_opening,
+                 "Run folder of ripstop inflate with the opening of the main");
+  add_run_folder(*command, "--drogue-opening", r.drogue_opening,
+                 "Run folder of ripstop inflate with the opening of the drogue")
+      ->needs(drogue);
+  add_number(*command, "--main-measured-load", r.main_measured_load, above(0).up_to(1e8),
+             "Opening load of the main, measured at the speed of this opening [N]");
+  add_number(*command, "--drogue-measured-load", r.drogue_measured_load, above(0).up_to(1e8),
+             "Opening load of the drogue, measured at the speed of this opening [N]")
+      ->needs(drogue);
   add_numbers(*command, "--section", r.sections, above(0).up_to(1e6),
               "Masses of sections of the rocket, for the kinetic energy of each at landing [kg]");
   add_number(
       *command, "--separation-speed", r.separation_speed, above(0).up_to(1000),
       "Relative speed at which two sections separate, for the load on the shock cord in [hardware]; needs "
       "--section, with the sections in order along the rocket [m/s]");
-  add_number(*command, "--bay-diameter", r.bay_diameter, above(0).up_to(10),
-             "Inner diameter of the parachute bay, for the length that the packed parachute needs [m]");
+  add_number(*command, "--bay-diameter", r.bay_diameter, above(0).up_to(2),
+             "Inner diameter of the parachute bay, for the length that the packed parachute needs; inches as "
+             "'6 in' [m]");
   add_number(*command, "--packing-density", r.packing_density, packing_density_range,
              "Packing density, 250 (loose) to 400 by hand, 600 with a press [kg/m3]");
   add_set_option(*command, options->overrides);

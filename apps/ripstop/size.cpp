@@ -69,7 +69,7 @@ void print_result(const SizeResult& r, const SizeArguments& options, const fs::p
       fmt::format("{} gores, {} lines of {:.3f} m, {}{}", r.gores, r.line_count, r.line_length,
                   r.line_material, r.gores_source.empty() ? "" : "; " + r.gores_source));
   row("tape", fmt::format("{}: {}", r.tape_material, r.tape_source));
-  row("mass", fmt::format("{:.3g} kg: cloth {:.3g}, tape {:.3g}, lines {:.3g}", r.parachute_mass,
+  row("mass", fmt::format("{:.3g} kg: cloth {:.3g} kg, tape {:.3g} kg, lines {:.3g} kg", r.parachute_mass,
                           r.cloth_mass, r.tape_mass, r.line_mass));
   row("packed volume", packed_text(r.parachute_mass, r.packed_volume));
   row("DESIGN LOAD", fmt::format("{:.0f} N at {:.3g} m/s{}: {}; largest line load {:.2f} times the mean",

@@ -12,6 +12,7 @@
 #include "ripstop/core/visible.h"
 #include "ripstop/core/wrap.h"
 #include "ripstop/run/quality.h"
+#include "units_option.h"
 
 namespace ripstop::cli {
 
@@ -20,7 +21,7 @@ void print_warnings(const std::vector<std::string>& warnings) {
   const std::string word = "warning";
   const std::size_t width = wrap_width(STDERR_FILENO);
   for (const std::string& warning : warnings) {
-    const std::string text = wrapped(word + ": " + visible(warning), width);
+    const std::string text = wrapped(word + ": " + visible(in_units(warning)), width);
     fmt::print(stderr, "{}{}\n", isatty(STDERR_FILENO) ? "\x1b[31m" + word + "\x1b[0m" : word,
                text.substr(word.size()));
   }

@@ -122,6 +122,7 @@ FastestDeployment.snatch: snatch load at the speed to use; None: without a speed
 FastestDeployment.margin_of_safety: margin of safety that every member keeps
 FastestDeployment.load_uncertainty: relative uncertainty of the load, which gives the range of the speeds
 FastestDeployment.design_method: method of the design load, whose speed is the result
+FastestDeployment.design_load_caution: condition in which a computed opening has a larger load; empty: none
 FastestDeployment.advice: speed to use, and the reason why the methods differ
 FastestDeployment.methods: fastest safe speed by each method
 SafeSpeed.speed_m_s: fastest safe airspeed at line stretch; None: no limit in the searched range
@@ -149,11 +150,12 @@ RecoveryStage.drag_coefficient_range_from: source of this range
 RecoveryStage.lowest_design_load_n: lower end of the range of the design load (guide/recovery.md)
 RecoveryStage.highest_design_load_n: design load at the highest airspeed, plus the uncertainty of the load
 RecoveryStage.load_uncertainty: relative uncertainty of the load at one airspeed, from the range of the drag coefficient and the scatter of openings
+RecoveryStage.design_load_caution: condition in which a computed opening has a larger load; empty: none
 RecoveryStage.snatch_load_n: snatch load by [deployment] of its case, at the highest airspeed; None: without [deployment]
 RecoveryStage.separation_load_n: load on the hardware with length_m and stiffness_n when two sections part; None: no separation speed, or no such hardware
 RecoveryStage.margins: margins of safety under highest_design_load_n; for lines, riser and hardware under the snatch load if it is larger; for hardware under the separation load if it is larger
 RecoveryStage.required_hardware: strength that each part of the hardware needs under the largest of highest_design_load_n, snatch_load_n and separation_load_n
-RecoveryStage.fastest_safe_deployment: fastest safe deployment by the method of the design load
+RecoveryStage.fastest_safe_deployment: fastest safe deployment by the method of the design load; None: the load is measured at one speed
 RecoveryStage.descent_rate_m_s: rate of descent at the end of the stage
 RecoveryStage.duration_s: duration of the stage
 RecoveryStage.drift_m: drift with the wind during the stage

@@ -68,6 +68,8 @@ void add_recovery(py::module_& module) {
       [](const PyCase& main, const std::optional<PyCase>& drogue, double mass, double apogee,
          double main_height, double speed, double delay, double ground, std::optional<double> body_drag_area,
          bool drogue_released, const std::optional<Path>& steady, const std::optional<Path>& drogue_steady,
+         const std::optional<Path>& opening, const std::optional<Path>& drogue_opening,
+         std::optional<double> measured_load, std::optional<double> drogue_measured_load,
          const std::vector<double>& sections, std::optional<double> separation_speed,
          std::optional<double> bay_diameter, const std::optional<Path>& out) {
         const py::gil_scoped_release release;
@@ -77,6 +79,9 @@ void add_recovery(py::module_& module) {
         r.sections = sections, r.separation_speed = separation_speed, r.bay_diameter = bay_diameter;
         if (steady) r.main_steady = *steady;
         if (drogue_steady) r.drogue_steady = *drogue_steady;
+        if (opening) r.main_opening = *opening;
+        if (drogue_opening) r.drogue_opening = *drogue_opening;
+        r.main_measured_load = measured_load, r.drogue_measured_load = drogue_measured_load;
         RecoveryResult result =
             run_recovery(main.settings(), drogue ? std::optional(drogue->settings()) : std::nullopt, r);
         if (out) write_recovery(*out, result);
@@ -86,7 +91,9 @@ void add_recovery(py::module_& module) {
       py::arg("main_height_m") = 300.0, py::arg("speed_m_s") = 20.0, py::arg("delay_s") = 0.0,
       py::arg("ground_m") = 0.0, py::arg("body_drag_area_m2") = py::none(),
       py::arg("drogue_released") = false, py::arg("steady") = py::none(),
-      py::arg("drogue_steady") = py::none(), py::arg("sections_kg") = std::vector<double>(),
+      py::arg("drogue_steady") = py::none(), py::arg("opening") = py::none(),
+      py::arg("drogue_opening") = py::none(), py::arg("measured_load_n") = py::none(),
+      py::arg("drogue_measured_load_n") = py::none(), py::arg("sections_kg") = std::vector<double>(),
       py::arg("separation_speed_m_s") = py::none(), py::arg("bay_diameter_m") = py::none(),
       py::arg("out") = py::none(),
       "Computes the recovery of a rocket under drogue and main, from apogee to the ground: ripstop "
@@ -97,6 +104,8 @@ void add_recovery(py::module_& module) {
       "speed_m_s: horizontal airspeed at apogee.\ndelay_s: time from apogee to the first opening.\n"
       "ground_m: height of the ground above sea level.\n"
       "steady, drogue_steady: run folders with the drag areas.\n"
+      "opening, drogue_opening: run folders with computed openings.\n"
+      "measured_load_n, drogue_measured_load_n: opening loads measured at the speeds of these openings.\n"
       "sections_kg: masses of the sections of the rocket, for their kinetic energy at landing.\n"
       "separation_speed_m_s: speed at which two sections part, for the load on the shock cord in "
       "[hardware].\n"

@@ -17,6 +17,8 @@ TEST(MaterialsCommand, ListsNamesForEachKeyWithMassStrengthAirAndSource) {
   expect_all(all, {"parachute.canopy_material", "parachute.lines.material", "parachute.tape.material",
                    "f-111-physical", "0.0407 kg/m2", "7881 N/m", "CFM/ft2", "spectra-line", "2 g/m", "3180 N",
                    "PIA-C-44378D"});
+  EXPECT_EQ(ripstop_with({"materials", "--kind", "cloth"}).output,
+            ripstop_with({"materials", "--kind", "fabric"}).output);
   const Finished lines = ripstop_with({"materials", "--kind", "line", "--units", "us"});
   expect_all(lines, {"3180 N (714.9 lbf)", "2 g/m (1.34 lb/1000 ft)"});
   EXPECT_EQ(lines.output.find("f-111"), std::string::npos) << lines.output;

@@ -84,6 +84,32 @@ TEST(RecoveryCommand, StatesAShortLengthInMillimetres) {
       << us.output;
 }
 
+// One qualification of every number that follows from the load of a heavy payload.
+TEST(RecoveryCommand, QualifiesTheNumbersOfAHeavyPayloadAndTakesAMeasuredLoad) {
+  const TemporaryFolder folder("recovery");
+  const std::vector<std::string> heavy = recovery(folder, {"--mass", "22"});
+  const std::string output = ripstop_with(heavy).output;
+  for (const char* row : {"margins and hardware", "required hardware", "fastest safe deployment"})
+    EXPECT_TRUE(std::regex_search(
+        output, std::regex(std::string(row) + ".*the payload is heavy: compute or measure the opening")))
+        << row << "\n"
+        << output;
+  const Finished measured = ripstop_with(
+      recovery(folder, {"--mass", "22", "--drogue-measured-load", "500", "--main-measured-load", "5000"}));
+  EXPECT_EQ(measured.code, 0) << measured.output;
+  EXPECT_EQ(measured.output.find("the payload is heavy"), std::string::npos) << measured.output;
+  EXPECT_NE(measured.output.find("not computed: a measured load is that at one speed"), std::string::npos);
+}
+
+TEST(RecoveryCommand, StatesWarningsInBothUnits) {
+  const TemporaryFolder folder("recovery");
+  const Finished run = ripstop_with(
+      recovery(folder, {"--mass", "22", "--units", "us", "--set", "hardware.link.rated_load_n=100"}));
+  EXPECT_TRUE(std::regex_search(
+      run.output, std::regex("warning: main: link exceeds its allowable load: its load of [0-9.]+ N \\(")))
+      << run.output;
+}
+
 int count_of(const std::string& part, const std::string& text) {
   int count = 0;
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
@@ -98,7 +124,7 @@ TEST(RecoveryCommand, AdvisesOnceOnTheHeavyPayloadOfSeveralParachutes) {
        {"drogue: the payload is heavy for this canopy (mass ratio R_m = rho (C_D S)^1.5 / m = ",
         "; main: the payload is heavy for this canopy (mass ratio R_m = "})
     EXPECT_EQ(count_of(text, run.output), 1) << text << "\n" << run.output;
-  EXPECT_EQ(count_of("Compute the opening at the airspeed V", run.output), 1) << run.output;
+  EXPECT_EQ(count_of("Compute the opening: ripstop inflate", run.output), 1) << run.output;
 }
 
 TEST(RecoveryCommand, RefusesAUnitOfAnotherQuantityAndAnUnknownChoiceOfUnits) {
@@ -118,6 +144,24 @@ TEST(RecoveryCommand, RefusesAHeightOfTheMainWithoutADrogue) {
   EXPECT_EQ(run.code, 2);
   EXPECT_NE(run.output.find("--main-height"), std::string::npos) << run.output;
   EXPECT_NE(run.output.find("--drogue"), std::string::npos) << run.output;
+  EXPECT_NE(run.output.find("--delay"), std::string::npos) << run.output;
+}
+
+TEST(RecoveryCommand, RefusesABayDiameterInInchesWithoutTheirUnit) {
+  const TemporaryFolder folder("recovery");
+  const Finished run = ripstop_with(recovery(folder, {"--mass", "22", "--bay-diameter", "6"}));
+  EXPECT_EQ(run.code, 2);
+  EXPECT_NE(run.output.find("--bay-diameter = 6: must be above 0 and at most 2 m"), std::string::npos)
+      << run.output;
+}
+
+TEST(RecoveryCommand, RefusesAPartWithTwoStrengths) {
+  const TemporaryFolder folder("recovery");
+  const Finished run = ripstop_with(recovery(folder, {"--mass", "22", "--set", "hardware.link.rated_load_n=1",
+                                                      "--set", "hardware.link.breaking_load_n=2"}));
+  EXPECT_EQ(run.code, 2);
+  EXPECT_NE(run.output.find("has breaking_load_n and rated_load_n: give only one of them"), std::string::npos)
+      << run.output;
 }
 
 // A light payload under a large canopy: the design load is that of infinite mass, although the speed decreases.

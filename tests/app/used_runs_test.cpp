@@ -141,6 +141,8 @@ std::vector<Use> uses(const std::string& file, const std::string& load_cell, con
        computes},
       {"recovery", "--steady", with(recovery, {"--steady", "RUN steady"}), computes},
       {"recovery", "--drogue-steady", with(recovery, {"--drogue-steady", "RUN fly"}), computes},
+      {"recovery", "--main-opening", with(recovery, {"--main-opening", "RUN inflate"}), computes},
+      {"recovery", "--drogue-opening", with(recovery, {"--drogue-opening", "RUN inflate"}), computes},
       {"descent", "run", {"descent", "RUN steady", "--mass", "2", "--json"}, computes},
       {"descent", "run", {"descent", "RUN fly", "--mass", "2", "--json"}, computes},
       {"export", "run", {"export", "json", "RUN steady"}, computes},

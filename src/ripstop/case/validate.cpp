@@ -403,7 +403,12 @@ void check_hardware(const Case& given, Findings& findings) {
   for (const auto& [name, part] : given.hardware) {
     const std::string table = "hardware." + name;
     if (!findings.sound({table})) continue;
-    if (part.breaking_load_n.has_value() == part.rated_load_n.has_value())
+    if (part.breaking_load_n && part.rated_load_n)
+      findings.add(
+          table, "", "",
+          "has breaking_load_n and rated_load_n: give only one of them; rated_load_n is the load that "
+          "the maker allows");
+    if (!part.breaking_load_n && !part.rated_load_n)
       findings.add(table, "", "",
                    "needs its strength: give either breaking_load_n or rated_load_n (the load that the maker "
                    "allows)");

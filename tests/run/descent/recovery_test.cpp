@@ -38,6 +38,11 @@ RecoveryRequest request() {
   return r;
 }
 
+bool warns_of(const RecoveryResult& r, const char* text) {
+  return std::any_of(r.warnings.begin(), r.warnings.end(),
+                     [&](const std::string& warning) { return warning.find(text) != std::string::npos; });
+}
+
 double drag_area(const RecoveryStage& s) {
   return s.drag_coefficient * s.reference_area;
 }
@@ -180,8 +185,68 @@ TEST(Recovery, APartExceedsItsAllowableLoadIfAndOnlyIfItOpensAboveTheSafeSpeed) 
       EXPECT_NEAR(*part->used, 1 / share, 1e-9);
       const bool exceeded = *weakest(*s.margins)->used > 1;
       EXPECT_EQ(exceeded, share < 1) << s.name << share;
-      EXPECT_EQ(exceeded, s.safe.unsafe_at || s.speed.high > *s.safe.lowest) << s.name << share;
+      EXPECT_EQ(exceeded, s.safe->unsafe_at || s.speed.high > *s.safe->lowest) << s.name << share;
     }
+}
+
+// The forces of the flight are those at its own speed; a slower opening has smaller ones.
+TEST(Recovery, TheSafeSpeedOfAFastOpeningIsThatOfTheLoadCommand) {
+  std::vector<Setting> link = with_coefficient("descent");
+  link.push_back({"hardware.link.rated_load_n", "5000"});
+  for (const double delay : {8.0, 10.0, 20.0}) {
+    RecoveryRequest late = request();
+    late.delay = delay;
+    const RecoveryResult r = run_recovery(canopy(3.5, link), {}, late);
+    const RecoveryStage& s = r.stages[0];
+    LoadRequest asked;
+    asked.payload_mass = late.mass, asked.height = s.height + late.ground, asked.path_angle = s.path_angle;
+    const SafeSpeed alone = run_fastest(canopy(3.5, link), asked).design();
+    ASSERT_TRUE(s.safe->lowest && alone.lowest) << delay;
+    EXPECT_NEAR(*s.safe->lowest / *alone.lowest, 1, 0.01) << delay;
+    EXPECT_TRUE(warns_of(r, "the fastest safe deployment is")) << delay;
+  }
+}
+
+// The load of the handbook is that of a canopy that fills slowly; a measured one needs no caution.
+TEST(Recovery, AHeavyPayloadQualifiesTheStageAsInTheLoadCommand) {
+  const RecoveryResult r = run_recovery(canopy(3.5), canopy(0.7), request());
+  LoadRequest asked;
+  asked.payload_mass = r.total_mass - r.stages[0].mass;
+  asked.speed = r.stages[0].speed.value, asked.height = 3200, asked.path_angle = 0;
+  const LoadResult drogue = run_load(canopy(0.7), asked);
+  ASSERT_NE(drogue.design_load_caution, "");
+  EXPECT_EQ(r.stages[0].design_load_caution, drogue.design_load_caution);
+  EXPECT_EQ(run_fastest(canopy(0.7), asked).design_load_caution.empty(), false);
+  RecoveryRequest measured = request();
+  measured.drogue_measured_load = 500;
+  EXPECT_EQ(run_recovery(canopy(3.5), canopy(0.7), measured).stages[0].design_load_caution, "");
+}
+
+TEST(Recovery, AMeasuredLoadReplacesTheHandbookAndIsScaledToTheRangeOfSpeeds) {
+  RecoveryRequest measured = request();
+  measured.main_measured_load = 2000;
+  const RecoveryResult r = run_recovery(canopy(3.5), canopy(0.7), measured);
+  const RecoveryStage &drogue = r.stages[0], &main = r.stages[1];
+  EXPECT_EQ(main.design_load, 2000);
+  EXPECT_EQ(main.design_load_from, "measured, as given");
+  const double faster = main.speed.high / main.speed.value, slower = main.speed.low / main.speed.value;
+  EXPECT_NEAR(main.highest_design_load, 1.15 * 2000 * faster * faster, 1e-6);
+  EXPECT_NEAR(main.lowest_design_load, 0.85 * 2000 * slower * slower, 1e-6);
+  EXPECT_EQ(main.hardware.rated, main.highest_design_load);
+  EXPECT_FALSE(main.safe);
+  EXPECT_EQ(drogue.highest_design_load,
+            run_recovery(canopy(3.5), canopy(0.7), request()).stages[0].highest_design_load);
+  measured.main_measured_load = 20;
+  EXPECT_TRUE(warns_of(run_recovery(canopy(3.5), canopy(0.7), measured),
+                       "main: the measured load of 20 N is below every applicable estimate"));
+}
+
+TEST(Recovery, WarnsOfAnOpeningWithoutASafeSpeed) {
+  const RecoveryResult r =
+      run_recovery(canopy(3.5, {{"hardware.link.rated_load_n", "50"}}), canopy(0.7), request());
+  ASSERT_TRUE(r.stages[1].safe->unsafe_at);
+  EXPECT_TRUE(warns_of(r, "main: it opens at up to "));
+  EXPECT_TRUE(warns_of(r, "no speed is safe (infinite mass): the link does not keep its margin"));
 }
 
 TEST(Recovery, ASnatchLoadAboveTheDesignLoadDeterminesTheHardware) {
@@ -269,11 +334,6 @@ TEST(Recovery, ADrogueThatOpensSlowerThanItDescendsCarriesTheWeight) {
   slow.speed = 2, slow.delay = 0.5;
   const RecoveryStage drogue = run_recovery(canopy(3.5), canopy(0.7), slow).stages[0];
   EXPECT_GT(drogue.design_load, 0.99 * 22 * standard_gravity);
-}
-
-bool warns_of(const RecoveryResult& r, const char* text) {
-  return std::any_of(r.warnings.begin(), r.warnings.end(),
-                     [&](const std::string& warning) { return warning.find(text) != std::string::npos; });
 }
 
 TEST(Recovery, WarnsOfAnOpeningBeyondTheRangeOfTheLoadModel) {

@@ -225,6 +225,7 @@ TEST(DesignLoad, TheRangeOfTheFiniteMassMethodsOmitsInfiniteMassAndMethodsThatDo
   methods.push_back({"Ludtke", 500, 0, true, ""});
   methods.push_back({"trajectory", 485, 0, true, ""});
   methods.push_back({"momentum-impulse", 520, 0, true, ""});
+  methods.push_back({computed_method, 900, 0, true, ""});
   const auto range = finite_mass_range(methods);
   ASSERT_TRUE(range);
   EXPECT_EQ(range->lowest, 485);

@@ -143,16 +143,22 @@ TEST(Fastest, OnASteepPathNearTheRateOfDescentIsForTheDesignLoad) {
             "constant speed is assumed; on this path the speed increases during filling");
 }
 
-// A load that does not depend on the speed, as the weight in a descent, is carried too.
-TEST(Fastest, WithALeastLoadIsAbsentOnlyWhereThatLoadIsNotCarried) {
+// A load that does not depend on the speed, as the weight in a descent, is carried too. One that is too large at the
+// speed of a flight is none at a lower speed.
+TEST(Fastest, WithALeastLoadIsTheSpeedAtWhichThatLoadIsCarried) {
   const Settings resolved = circular_with({{"hardware.link.rated_load_n", "400"}});
   const LoadUncertainty third{0.3, "given"};
-  const SafeSpeed free = run_fastest(resolved, level_request(), 0, third).design(),
-                  light = run_fastest(resolved, level_request(), 0, third, 0.99 * 400 / 1.3).design(),
-                  heavy = run_fastest(resolved, level_request(), 0, third, 1.01 * 400 / 1.3).design();
+  const auto with = [&](const std::function<double(double)>& least) {
+    return run_fastest(resolved, level_request(), 0, third, least).design();
+  };
+  const SafeSpeed free = with({}), light = with([](double) { return 0.99 * 400 / 1.3; }),
+                  heavy = with([](double) { return 1.01 * 400 / 1.3; });
   EXPECT_EQ(light.lowest, free.lowest);
   EXPECT_TRUE(heavy.unsafe_at && !heavy.lowest);
   EXPECT_NEAR(*free.speed / *free.lowest, std::sqrt(1.3), 2e-3);
+  const double half = 0.5 * *free.lowest;
+  const SafeSpeed rising = with([&](double speed) { return 400 / 1.3 * speed / half; });
+  EXPECT_NEAR(*rising.lowest / half, 1, 2e-3);
 }
 
 TEST(Hardware, AStretchingPartNeedsItsKindSinceTheFactorsDependOnIt) {

@@ -9,6 +9,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
 #include "ripstop/output/csv.h"
+#include "ripstop/run/descent/recovery.h"
 #include "ripstop/run/opening/fastest.h"
 #include "ripstop/run/opening/load.h"
 #include "ripstop/run/run_folder.h"
@@ -124,6 +125,23 @@ TEST_F(OpeningRecords, OnlyACoupledOpeningThatHasFilledLowersTheDesignLoad) {
     there.speed = *fastest.design().speed;
     EXPECT_NEAR(run_load(resolve(given), there).design_load, 300, 1) << "the load command agrees";
   }
+}
+
+TEST_F(OpeningRecords, OfACoupledOpeningGivesTheLoadsOfARecovery) {
+  given.inflation.air = AirModel::coupled;
+  given.hardware["link"].rated_load_n = 300;
+  write(opening_history, nullptr, nullptr, "{\"peak_load_n\": 500, \"filled\": true}");
+  RecoveryRequest asked;
+  asked.mass = 2.4, asked.apogee = 1000, asked.main_opening = folder;
+  const RecoveryStage stage = run_recovery(resolve(given), {}, asked).stages.at(0);
+  LoadRequest alone;
+  alone.payload_mass = 2.4, alone.speed = stage.speed.value, alone.height = 1000;
+  alone.path_angle = stage.path_angle, alone.opening = folder;
+  const LoadResult load = run_load(resolve(given), alone);
+  ASSERT_EQ(load.design_method, computed_method);
+  EXPECT_NEAR(stage.design_load / load.design_load, 1, 1e-6);
+  EXPECT_EQ(stage.design_load_from, load.design_load_from);
+  EXPECT_EQ(stage.safe->method, computed_method);
 }
 
 TEST_F(OpeningRecords, FillingIsThatOfTheResultAndRefusedWhereThereIsNone) {

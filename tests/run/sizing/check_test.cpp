@@ -7,6 +7,7 @@
 
 #include "ripstop/case/case.h"
 #include "ripstop/case/resolve.h"
+#include "ripstop/run/opening/load.h"
 
 namespace ripstop {
 namespace {
@@ -37,6 +38,31 @@ TEST(CheckMargins, AreThoseAtTheDeploymentSpeedOfThePayload) {
   EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const std::string& text) {
     return text.starts_with("in an opening at 90 m/s (payload.deployment_speed_m_s of the case)");
   }));
+}
+
+// Parts that carry the load and not its uncertainty fail by both commands, each with its own warning.
+TEST(CheckMargins, AreThoseOfTheLoadCommandUnderTheHighestDesignLoad) {
+  Case given = read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/flat-circular/case.toml");
+  given.payload.mass_kg = 3, given.payload.deployment_speed_m_s = 20;
+  LoadRequest asked;
+  asked.payload_mass = 3, asked.speed = 20;
+  const LoadResult free = run_load(resolve(given), asked);
+  const auto warned = [](const std::vector<std::string>& warnings, const std::string& part) {
+    return std::any_of(warnings.begin(), warnings.end(), [&](const std::string& text) {
+      return text.find(part + " exceeds its allowable load") != std::string::npos;
+    });
+  };
+  for (const double share : {0.99, 1.01}) {
+    for (const char* part : {"link", "swivel"})
+      given.hardware[part].rated_load_n = share * free.highest_design_load;
+    ASSERT_GT(*given.hardware["link"].rated_load_n, free.design_load);
+    const std::vector<std::string> load = run_load(resolve(given), asked).warnings,
+                                   check = run_check(resolve(given)).warnings;
+    for (const char* part : {"link", "swivel"}) {
+      EXPECT_EQ(warned(load, part), share < 1) << part << share;
+      EXPECT_EQ(warned(check, part), share < 1) << part << share;
+    }
+  }
 }
 
 }  // namespace

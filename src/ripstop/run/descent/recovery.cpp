@@ -6,16 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <numeric>
 #include <utility>
 
 #include "ripstop/case/cluster.h"
 #include "ripstop/case/payload.h"
-#include "ripstop/core/claimed_folder.h"
 #include "ripstop/core/error.h"
-#include "ripstop/core/file.h"
 #include "ripstop/core/positive.h"
 #include "ripstop/core/words.h"
 #include "ripstop/flight/atmosphere.h"
@@ -23,16 +20,10 @@
 #include "ripstop/flight/validity.h"
 #include "ripstop/flight/wind.h"
 #include "ripstop/fsi/opening_estimate.h"
-#include "ripstop/output/csv.h"
-#include "ripstop/output/plot.h"
-#include "ripstop/run/json.h"
 #include "ripstop/run/opening/filling.h"
 #include "ripstop/run/opening/handbook.h"
 #include "ripstop/run/opening/snatch.h"
-#include "ripstop/run/report/report.h"
-#include "ripstop/run/report/report_tables.h"
 #include "ripstop/run/steady/warnings.h"
-#include "ripstop/run/used_run.h"
 
 namespace ripstop::inline run {
 namespace {
@@ -49,6 +40,9 @@ struct RecoveryCanopy {
   DragCoefficient drag;
   DescentDrag range;
   double area = 0, mass = 0;  // S0 [m2], [kg]
+  std::filesystem::path opening;
+  std::optional<double> measured_load;  // [N]
+  LoadInputs inputs;
 };
 
 /// Which coefficient of each parachute a flight has.
@@ -63,6 +57,7 @@ double drag_at(DragEnd end, const RecoveryCanopy& canopy) {
 struct FlownStage {
   FlightState opening;
   LoadResult load;                                              // of run_load() there
+  double others = 0, end_height = 0;                            // drag area of body and drogue [m2], [m]
   bool filled = true;                                           // before the next opening or the ground
   bool steady = true;                                           // at its end
   double peak_force = 0;                                        // on its canopy along the trajectory [N]
@@ -99,12 +94,65 @@ LoadRequest opening_of(const RecoveryCanopy& canopy, double drag_coefficient, co
   asked.speed = state.speed, asked.height = state.height, asked.ground = request.ground;
   asked.path_angle = std::clamp(state.path_angle, -90.0, 90.0);
   asked.drag_coefficient = drag_coefficient;
+  asked.opening = canopy.opening, asked.measured_load = canopy.measured_load;
   asked.descent = false;
   // Slower than it will descend, as soon after apogee: methods without gravity; the trajectory has the weight.
   if (state.speed <= 1.001 * slowest_opening(mass, drag_coefficient * canopy.area,
                                              standard_air(state.height).density, asked.path_angle))
     asked.path_angle = 0;
   return asked;
+}
+
+LoadResult load_of(const RecoveryCanopy& canopy, const LoadRequest& asked) {
+  LoadInputs inputs = canopy.inputs;
+  inputs.drag = opening_drag_coefficient(canopy.resolved, asked);
+  return run_load(canopy.resolved, asked, inputs);
+}
+
+/// A measured load or a computed opening replaces the filling of the handbook.
+bool replaces_filling(const LoadResult& load) {
+  return load.design_method.empty() || load.design_method == computed_method;
+}
+
+/// A canopy fills, and is then open until the next opening or the ground.
+struct StageLegs {
+  Leg filling, open;
+};
+StageLegs legs_of(const LoadResult& load, double others, double end_height) {
+  const StageLoads& opening = load.stages.front();
+  const double cx = load.opening_coefficient, j = load.filling_exponent, area = opening.drag_area;
+  const DragArea own = filling(0, area, opening.filling_time, j, cx);
+  const double settled = opening.filling_time * (2 + std::pow(cx, 1 / j));
+  return {{[=](double t, double s) { return others + own(t, s); }, settled,
+           opening.filling_time / steps_of_filling, end_height},
+          {[=](double, double) { return others + area; }, longest_descent, slow_step, end_height}};
+}
+
+/// On the canopy itself, without the drag of the others [N].
+double force_on_canopy(const FlightRow& row, double others) {
+  return row.drag_area > others ? row.force * (1 - others / row.drag_area) : 0;
+}
+
+/// Largest force on the canopy if the stage begins at `speed` [m/s], else as in its flight [N].
+double peak_force_at(double speed, const RecoveryCanopy& canopy, const FlownStage& stage,
+                     const RecoveryRequest& request) {
+  FlightState state = stage.opening;
+  state.speed = speed;
+  const double mass = stage.load.payload_mass + canopy.mass;
+  const LoadResult load =
+      load_of(canopy, opening_of(canopy, stage.load.drag_coefficient, state, mass, request));
+  const StageLegs legs = legs_of(load, stage.others, stage.end_height);
+  double peak = 0;
+  const auto fly_leg = [&](const Leg& leg) {
+    double highest = 0;
+    for (const FlightRow& row : fly(state, mass, leg))
+      highest = std::max(highest, force_on_canopy(row, stage.others));
+    return highest;
+  };
+  const double filling_peak = fly_leg(legs.filling);
+  if (!replaces_filling(load)) peak = filling_peak;
+  if (state.height > stage.end_height) peak = std::max(peak, fly_leg(legs.open));
+  return peak;
 }
 
 class RecoveryFlight {
@@ -134,31 +182,25 @@ class RecoveryFlight {
  private:
   void fly_stage(std::size_t i) {
     const RecoveryCanopy& canopy = canopies_[i];
-    FlownStage stage{state_, run_load(canopy.resolved,
-                                      opening_of(canopy, drag_at(end_, canopy), state_, mass_, request_))};
+    FlownStage stage{state_,
+                     load_of(canopy, opening_of(canopy, drag_at(end_, canopy), state_, mass_, request_))};
     ++open_;
     const StageLoads& opening = stage.load.stages.front();
-    const double others = body_area_ + (request_.drogue_released ? 0 : before_);
-    const double cx = stage.load.opening_coefficient, j = stage.load.filling_exponent;
-    const DragArea own = filling(0, opening.drag_area, opening.filling_time, j, cx);
-    const double ground = request_.ground + (i + 1 < canopies_.size() ? request_.main_height : 0.0);
-    const double begin = state_.time, settled = opening.filling_time * (2 + std::pow(cx, 1 / j));
-    const double drift = drift_;
-    const std::size_t first = flown_.rows.size();
-    append({[=](double t, double s) { return others + own(t, s); }, settled,
-            opening.filling_time / steps_of_filling, ground});
+    stage.others = body_area_ + (request_.drogue_released ? 0 : before_);
+    stage.end_height = request_.ground + (i + 1 < canopies_.size() ? request_.main_height : 0.0);
+    const StageLegs legs = legs_of(stage.load, stage.others, stage.end_height);
+    const double begin = state_.time, drift = drift_;
+    std::size_t first = flown_.rows.size();
+    append(legs.filling);
     stage.filled = state_.time - begin >= opening.filling_time;
-    if (state_.height > ground) {
-      const double area = opening.drag_area;
-      append({[=](double, double) { return others + area; }, longest_descent, slow_step, ground});
-    }
-    for (std::size_t k = first; k < flown_.rows.size(); ++k) {
-      const FlightRow& row = flown_.rows[k].flight;
-      stage.peak_force = std::max(stage.peak_force, row.force * (1 - others / row.drag_area));
-    }
+    if (replaces_filling(stage.load)) first = flown_.rows.size();
+    if (state_.height > stage.end_height) append(legs.open);
+    for (std::size_t k = first; k < flown_.rows.size(); ++k)
+      stage.peak_force = std::max(stage.peak_force, force_on_canopy(flown_.rows[k].flight, stage.others));
     before_ = opening.drag_area;
     stage.duration = state_.time - begin, stage.end_speed = state_.speed, stage.drift = drift_ - drift;
-    stage.terminal = terminal_speed(mass_, others + opening.drag_area, standard_air(state_.height).density);
+    stage.terminal =
+        terminal_speed(mass_, stage.others + opening.drag_area, standard_air(state_.height).density);
     stage.steady = std::abs(stage.end_speed / stage.terminal - 1) <= steady_share &&
                    stage.duration >= steady_fillings * opening.filling_time;
     flown_.stages.push_back(std::move(stage));
@@ -202,9 +244,7 @@ struct EndOpening {
   LoadRequest asked;
   LoadResult load;
   LoadUncertainty uncertainty;  // of the load: range of C_D in descent and scatter of openings
-  /// Of the trajectories with their ranges, and of a method with more than infinite mass: it does not decrease with the
-  /// speed as that load does [N].
-  double least_load = 0;
+  double least_load = 0;        // of the trajectories with their ranges [N]
 
   double design_load() const { return std::max(load.design_load, least_load); }
 };
@@ -224,7 +264,13 @@ LoadUncertainty uncertainty_at(DragEnd end, const RecoveryCanopy& canopy) {
   return load_uncertainty(drag);
 }
 
-/// The forces of the trajectories contain the range of C_D already, and not the scatter of openings.
+/// The `peak` force of a trajectory contains the range of C_D already, and not the scatter of openings. With the
+/// uncertainty it is the end of a range.
+double least_load(DragEnd end, double peak, const LoadUncertainty& uncertainty) {
+  const double sign = end == DragEnd::high ? 1 : -1;
+  return peak * (1 + sign * opening_scatter) / (1 + sign * uncertainty.value);
+}
+
 EndOpening opening_at(DragEnd end, const RecoveryCanopy& canopy, std::size_t i,
                       const std::vector<Flown>& flights, const RecoveryRequest& request) {
   const bool high = end == DragEnd::high;
@@ -234,18 +280,36 @@ EndOpening opening_at(DragEnd end, const RecoveryCanopy& canopy, std::size_t i,
   const auto [slowest, fastest] = std::minmax_element(flights.begin(), flights.end(), faster);
   const FlownStage& stage = (high ? *fastest : *slowest).stages[i];
   EndOpening opening;
-  opening.uncertainty = uncertainty_at(end, canopy);
+  opening.asked =
+      opening_of(canopy, canopy.drag.value, stage.opening, stage.load.payload_mass + canopy.mass, request);
+  if (canopy.measured_load)
+    opening.asked.measured_load =
+        *canopy.measured_load * std::pow(stage.opening.speed / flights[0].stages[i].opening.speed, 2);
+  opening.load = load_of(canopy, opening.asked);
+  opening.uncertainty = canopy.measured_load ? LoadUncertainty{opening.load.load_uncertainty,
+                                                               opening.load.load_uncertainty_from}
+                                             : uncertainty_at(end, canopy);
   double peak = stage.peak_force;
   for (const Flown& flown : flights)
     peak = high ? std::max(peak, flown.stages[i].peak_force) : std::min(peak, flown.stages[i].peak_force);
-  const double sign = high ? 1 : -1;
-  opening.least_load = peak * (1 + sign * opening_scatter) / (1 + sign * opening.uncertainty.value);
-  opening.asked =
-      opening_of(canopy, canopy.drag.value, stage.opening, stage.load.payload_mass + canopy.mass, request);
-  opening.load = run_load(canopy.resolved, opening.asked);
-  if (opening.load.design_method != infinite_mass_method)
-    opening.least_load = std::max(opening.least_load, opening.load.design_load);
+  opening.least_load = least_load(end, peak, opening.uncertainty);
   return opening;
+}
+
+/// The largest force of the trajectories depends on the speed of the opening. At the highest speed of the flights it is
+/// that of `high`; at others the speeds of the flights keep their ratios.
+SafeSpeed safe_speed_of(const RecoveryCanopy& canopy, std::size_t i, const std::vector<Flown>& flights,
+                        const EndOpening& high, const RecoveryRequest& request) {
+  const auto least = [&](double speed) {
+    double peak = 0;
+    for (const Flown& flown : flights) {
+      const FlownStage& stage = flown.stages[i];
+      peak = std::max(peak,
+                      peak_force_at(speed * stage.opening.speed / high.asked.speed, canopy, stage, request));
+    }
+    return least_load(DragEnd::high, peak, high.uncertainty);
+  };
+  return run_fastest(canopy.resolved, high.asked, 0, high.uncertainty, least).design();
 }
 
 /// A landing before the descent is steady in one of the flights. Nothing for a canopy that is not filled: that has
@@ -309,7 +373,8 @@ RecoveryStage stage_of(const RecoveryCanopy& canopy, std::size_t i, const std::v
   if (s.separation_load) add_separation(canopy.resolved, *s.separation_load, *s.margins);
   s.hardware = hardware_need(std::max({s.highest_design_load, largest_snatch, s.separation_load.value_or(0)}),
                              canopy.resolved.margins());
-  s.safe = run_fastest(canopy.resolved, high.asked, 0, high.uncertainty, high.least_load).design();
+  s.design_load_caution = load.design_load_caution;
+  if (!canopy.measured_load) s.safe = safe_speed_of(canopy, i, flights, high, request);
   s.descent_rate = ranged(flights, [&](const Flown& f) { return f.stages[i].end_speed; });
   s.duration = ranged(flights, [&](const Flown& f) { return f.stages[i].duration; });
   s.drift = ranged(flights, [&](const Flown& f) { return f.stages[i].drift; });
@@ -321,38 +386,45 @@ RecoveryStage stage_of(const RecoveryCanopy& canopy, std::size_t i, const std::v
     for (const std::string& text : texts) warnings.push_back(fmt::format("{}: {}", canopy.name, text));
   };
   warn(strain_warnings(canopy.resolved, 0)), warn(hardware_warnings(canopy.resolved)),
-      warn(margin_warnings(s.margins));
+      warn(margin_warnings(s.margins)), warn(load.opening_warnings);
   warn(outside_range(infinite_mass_model,
                      {{"Mach number", s.speed.high / standard_air(flown.opening.height).sound_speed}}));
   if (!flown.filled)
     warnings.push_back(fmt::format("{}: it opens too low: it is not filled after {:.3g} s, when {}",
                                    canopy.name, flown.duration,
                                    i + 1 < flights[0].stages.size() ? "the main opens" : "the rocket lands"));
-  if (s.safe.lowest && s.speed.high > *s.safe.lowest) {
-    const auto [speed, safe] = rounded_apart(s.speed.high, *s.safe.lowest);
+  if (s.safe && s.safe->lowest && s.speed.high > *s.safe->lowest) {
+    const auto [speed, safe] = rounded_apart(s.speed.high, *s.safe->lowest);
     warnings.push_back(fmt::format("{}: it opens at up to {} m/s; the fastest safe deployment is {} m/s ({})",
-                                   canopy.name, speed, safe, s.safe.method));
+                                   canopy.name, speed, safe, s.safe->method));
+  } else if (s.safe && s.safe->unsafe_at) {
+    warnings.push_back(fmt::format(
+        "{}: it opens at up to {} m/s; no speed is safe ({}): the {} does not keep its margin at {} m/s "
+        "either",
+        canopy.name, rounded(s.speed.high, 3), s.safe->method, s.safe->member,
+        rounded(*s.safe->unsafe_at, 3)));
   }
   return s;
 }
 
-RecoveryCanopy canopy_of(const char* name, const Settings& resolved, const std::filesystem::path& steady) {
+RecoveryCanopy canopy_of(const char* name, const Settings& resolved, const std::filesystem::path& steady,
+                         const std::filesystem::path& opening, std::optional<double> measured_load) {
   LoadRequest asked;
-  asked.steady = steady;
-  const DragCoefficient drag = opening_drag_coefficient(resolved, asked);
+  asked.steady = steady, asked.opening = opening;
+  LoadInputs inputs = load_inputs(resolved, asked);
+  const DragCoefficient drag = inputs.drag;
   return {name,
           resolved,
           drag,
           descent_drag(resolved, drag),
           nominal_area(resolved.parachute()),
-          parachute_mass(resolved)};
+          parachute_mass(resolved),
+          opening,
+          measured_load,
+          std::move(inputs)};
 }
 
 }  // namespace
-
-std::string to_json(const RecoveryResult& result) {
-  return json_text(result);
-}
 
 RecoveryResult run_recovery(const Settings& main, const std::optional<Settings>& drogue,
                             const RecoveryRequest& request) {
@@ -360,15 +432,19 @@ RecoveryResult run_recovery(const Settings& main, const std::optional<Settings>&
   if (drogue) require_one_canopy(*drogue, "a recovery");
   check_recovery(request, drogue.has_value());
   std::vector<RecoveryCanopy> canopies;
-  if (drogue) canopies.push_back(canopy_of("drogue", *drogue, request.drogue_steady));
-  canopies.push_back(canopy_of("main", main, request.main_steady));
+  if (drogue)
+    canopies.push_back(canopy_of("drogue", *drogue, request.drogue_steady, request.drogue_opening,
+                                 request.drogue_measured_load));
+  canopies.push_back(
+      canopy_of("main", main, request.main_steady, request.main_opening, request.main_measured_load));
   const Wind& wind = main.flight().wind;
   const double body = request.body_drag_area.value_or(main.payload().drag_area_m2);
   std::vector<Flown> flights;
   for (const DragEnd end : {DragEnd::nominal, DragEnd::low, DragEnd::high})
     flights.push_back(RecoveryFlight(canopies, request, wind, body, end).fly_down());
   RecoveryResult r;
-  r.warnings = warnings_of_used({request.drogue_steady, request.main_steady});
+  for (const RecoveryCanopy& canopy : canopies)
+    r.warnings.insert(r.warnings.end(), canopy.inputs.warnings.begin(), canopy.inputs.warnings.end());
   r.title = main.title(), r.mass = r.total_mass = request.mass;
   for (const RecoveryCanopy& canopy : canopies) r.total_mass += canopy.mass;
   if (const double all = std::accumulate(request.sections.begin(), request.sections.end(), 0.0);
@@ -415,85 +491,6 @@ RecoveryResult run_recovery(const Settings& main, const std::optional<Settings>&
   for (const double mass : request.sections) r.sections.push_back({mass, energy(mass)});
   r.rows = std::move(flights[0].rows);
   return r;
-}
-
-namespace {
-
-/// All values with a range; the groups of three rows that result.json makes of them are left out.
-void add_ranges(ReportRun& run, const RecoveryResult& r) {
-  ReportTable table{
-      "ranges",
-      "Values with their ranges",
-      "With the smallest and the largest drag coefficients of all parachutes in descent; design "
-      "loads with their uncertainty.",
-      {{"stage", ""}, {"quantity", ""}, {"value", ""}, {"low", ""}, {"high", ""}, {"unit", ""}},
-      {}};
-  const auto add = [&](const std::string& stage, const std::string& quantity, const Ranged& value,
-                       const char* unit) {
-    table.rows.push_back({stage, quantity, fmt::format("{:.5g}", value.value),
-                          fmt::format("{:.5g}", value.low), fmt::format("{:.5g}", value.high), unit});
-  };
-  for (const RecoveryStage& s : r.stages) {
-    add(s.name, "drag coefficient on S0", {s.drag_coefficient, s.descent_drag.low, s.descent_drag.high}, "");
-    add(s.name, "design load", {s.design_load, s.lowest_design_load, s.highest_design_load}, "N");
-    add(s.name, "airspeed at the opening", s.speed, "m/s");
-    add(s.name, "rate of descent at the end", s.descent_rate, "m/s");
-    add(s.name, "duration", s.duration, "s");
-    add(s.name, "drift", s.drift, "m");
-  }
-  add("landing", "time since apogee", r.time, "s");
-  add("landing", "drift with the wind", r.drift, "m");
-  add("landing", "rate of descent", r.landing_speed, "m/s");
-  add("landing", "kinetic energy", r.energy, "J");
-  for (const SectionEnergy& s : r.sections)
-    add("landing", fmt::format("kinetic energy of {:.4g} kg", s.mass), s.energy, "J");
-  std::erase_if(run.tables, [](const ReportTable& t) {
-    return !t.rows.empty() && !t.rows.front().empty() && t.rows.front().front() == "value";
-  });
-  run.tables.insert(run.tables.begin(), std::move(table));
-}
-
-}  // namespace
-
-void write_recovery(const std::filesystem::path& folder, const RecoveryResult& r) {
-  make_results_folder(folder, "recovery");
-  CsvTable table{columns_of<RecoveryRow>(), {}};
-  for (const RecoveryRow& row : r.rows) table.rows.push_back(row_of(row));
-  write_csv(folder / "trajectory.csv", table);
-  const std::string json = to_json(r);
-  ReportRun run;
-  run.kind = "recovery", run.name = folder.filename().string();
-  add_result(run, json, folder / "result.json");
-  run.values.push_back({"landing_speed_m_s", nlohmann::json(r.landing_speed.value).dump()});
-  run.values.push_back({"energy_j", nlohmann::json(r.energy.value).dump()});
-  add_ranges(run, r);
-  run.headline = {"total_mass_kg", "apogee_m", "landing_speed_m_s", "energy_j"};
-  const auto plot = [&](const std::string& name, const std::string& title, const ReportColumn& y,
-                        auto value) {
-    Plot picture;
-    picture.title = r.title, picture.x.label = "time since apogee [s]";
-    picture.y.label = fmt::format("{} [{}]", y.text, y.unit);
-    ReportPlot page{name, title, {"time since apogee", "s"}, y, {}};
-    for (int open = 0; open <= static_cast<int>(r.stages.size()); ++open) {
-      PlotSeries series;
-      series.markers = false;
-      series.name = open == 0 ? "before the first opening" : r.stages[open - 1].name;
-      for (const RecoveryRow& row : r.rows) {
-        if (row.open != open) continue;
-        series.x.push_back(row.flight.state.time), series.y.push_back(value(row));
-      }
-      if (series.x.size() < 2) continue;
-      page.series.push_back({series.name, series.x, series.y});
-      picture.series.push_back(std::move(series));
-    }
-    run.plots.push_back(std::move(page));
-    write_plot(folder / (name + ".png"), picture);
-  };
-  plot("height", "Height", {"height above the ground", "m"},
-       [&](const RecoveryRow& row) { return row.flight.state.height - r.ground; });
-  plot("speed", "Speed", {"speed", "m/s"}, [](const RecoveryRow& row) { return row.flight.state.speed; });
-  write_file(folder / "result.json", json);
-  write_file(folder / report_name, report_page(report_on({std::move(run)}, r.title)));
 }
 
 }  // namespace ripstop::inline run

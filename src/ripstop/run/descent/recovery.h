@@ -26,11 +26,13 @@ struct RecoveryRequest {
   double ground = 0;                     // above sea level [m]
   std::optional<double> body_drag_area;  // [m2]; absent: payload.drag_area_m2 of the main's case
   bool drogue_released = false;          // when the main opens; else it remains attached
-  double packing_density = packed_by_hand;           // [kg/m3]
-  std::optional<double> bay_diameter;                // inner, of the airframe [m]
-  std::vector<double> sections;                      // masses of separate parts at landing [kg]
-  std::optional<double> separation_speed;            // at which two of them part; needs two masses [m/s]
-  std::filesystem::path main_steady, drogue_steady;  // runs that provide the drag areas; empty: none
+  double packing_density = packed_by_hand;             // [kg/m3]
+  std::optional<double> bay_diameter;                  // inner, of the airframe [m]
+  std::vector<double> sections;                        // masses of separate parts at landing [kg]
+  std::optional<double> separation_speed;              // at which two of them part; needs two masses [m/s]
+  std::filesystem::path main_steady, drogue_steady;    // runs that provide the drag areas; empty: none
+  std::filesystem::path main_opening, drogue_opening;  // computed openings; empty: none
+  std::optional<double> main_measured_load, drogue_measured_load;  // at the speed of the opening [N]
 };
 
 /// A value, and its range with the smallest and largest drag coefficients of all parachutes (DescentDrag).
@@ -67,12 +69,14 @@ struct RecoveryStage {
   std::optional<double> separation_load;  // of two sections, on the stretching hardware of its case [N]
   HardwareNeed hardware;                  // under the largest of design load, snatch load and separation load
   std::optional<Margins> margins;         // the same
-  SafeSpeed safe;                         // fastest safe deployment by the method of the design load
-  Ranged descent_rate;                    // at the end [m/s]
-  Ranged duration, drift;                 // [s], with the wind [m]
-  double mass = 0;                        // of the parachute [kg]
-  double packed_volume = 0;               // [m3]
-  std::optional<double> bay_length;       // of the packed parachute in the bay [m]
+  std::string design_load_caution;        // where a computed opening can have more; empty: none
+  std::optional<SafeSpeed>
+      safe;                  // by the method of the design load; absent: the load is measured at one speed
+  Ranged descent_rate;       // at the end [m/s]
+  Ranged duration, drift;    // [s], with the wind [m]
+  double mass = 0;           // of the parachute [kg]
+  double packed_volume = 0;  // [m3]
+  std::optional<double> bay_length;  // of the packed parachute in the bay [m]
 };
 template <Of<RecoveryStage> T, class Visit>
 void each_member(T& s, Visit&& visit) {
@@ -102,6 +106,7 @@ void each_member(T& s, Visit&& visit) {
   visit("load_uncertainty", s.load_uncertainty);
   visit("load_uncertainty_from", s.load_uncertainty_from);
   visit("design_load_from", s.design_load_from);
+  visit("design_load_caution", s.design_load_caution);
   visit("snatch_load_n", s.snatch_load);
   visit("separation_load_n", s.separation_load);
   visit("required_hardware", s.hardware);
@@ -180,7 +185,9 @@ std::string to_json(const RecoveryResult& result);
 /// main. Opening loads are those of run_load() at the speed, height and path of the flight. The design load of a stage
 /// is at least the largest force on its canopy along the trajectory. The upper end of its range is the load at the
 /// highest speed plus the uncertainty: the range of the coefficient and the scatter of openings, as independent parts;
-/// the lower end likewise. The fastest safe deployment has the same uncertainty. The canopies follow the wind at once.
+/// the lower end likewise. The fastest safe deployment has the same uncertainty. A measured load or a computed opening
+/// replaces the handbook as in run_load(); a measured load is scaled to the speeds of the range with their squares, and
+/// has no fastest safe deployment. The canopies follow the wind at once.
 /// Wind: [flight.wind] of the main's case. Throws Error(usage) as run_load(), and for a main that opens above the apogee.
 RecoveryResult run_recovery(const Settings& main, const std::optional<Settings>& drogue,
                             const RecoveryRequest& request);

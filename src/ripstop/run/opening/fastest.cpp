@@ -14,6 +14,7 @@
 #include "ripstop/core/file.h"
 #include "ripstop/core/words.h"
 #include "ripstop/run/json.h"
+#include "ripstop/run/opening/handbook.h"
 #include "ripstop/run/steady/warnings.h"
 
 namespace ripstop::inline run {
@@ -25,8 +26,9 @@ constexpr double speed_tolerance = 1e-3;  // relative
 /// The loads of one parachute by every method, at any speed.
 class LoadsAtSpeed {
  public:
-  LoadsAtSpeed(const Settings& resolved, LoadRequest request, const LoadInputs& inputs)
-      : resolved_(resolved), request_(std::move(request)), inputs_(inputs) {
+  LoadsAtSpeed(const Settings& resolved, LoadRequest request, const LoadInputs& inputs,
+               const std::function<double(double)>& least_load)
+      : resolved_(resolved), request_(std::move(request)), inputs_(inputs), least_load_(least_load) {
     request_.descent = false;
   }
 
@@ -64,12 +66,20 @@ class LoadsAtSpeed {
     const auto found = snatch(speed);
     return snatches_.emplace(speed, found ? found->largest() : 0).first->second;
   }
+  /// Of the whole descent; 0 where it is not asked for.
+  double least_load(double speed) const {
+    if (!least_load_) return 0;
+    const auto known = least_loads_.find(speed);
+    if (known != least_loads_.end()) return known->second;
+    return least_loads_.emplace(speed, least_load_(speed)).first->second;
+  }
 
  private:
   const Settings& resolved_;
   LoadRequest request_;
   const LoadInputs& inputs_;
-  mutable std::map<double, double> snatches_;
+  const std::function<double(double)>& least_load_;
+  mutable std::map<double, double> snatches_, least_loads_;
   mutable std::map<double, LoadResult> results_;
 };
 
@@ -113,10 +123,11 @@ std::optional<double> largest_speed(double low, Keeps&& keeps) {
 }
 
 SafeSpeed safe_speed(const Settings& resolved, const LoadsAtSpeed& loads, const std::string& method,
-                     double slowest, double least_load, const FastestResult& r) {
+                     double slowest, const FastestResult& r) {
   const bool design = method == r.design_method;
   const auto peak_at = [&](double speed) {
-    return design ? design_peak(loads.at(speed), method, least_load) : peak_of(loads.at(speed), method);
+    return design ? design_peak(loads.at(speed), method, loads.least_load(speed))
+                  : peak_of(loads.at(speed), method);
   };
   const auto least = [&](double load, double speed) {
     return *weakest(load_margins(resolved, load, loads.snatch_load(speed)));
@@ -149,7 +160,7 @@ std::string printed(const std::optional<double>& speed) {
 
 /// Which speed to use. Infinite mass and the finite-mass methods may differ by a factor of three and more, as a large
 /// canopy slows a light payload down during a long filling.
-std::string advice_of(const FastestResult& r, double filling_distance, bool caution) {
+std::string advice_of(const FastestResult& r, double filling_distance) {
   const SafeSpeed& design = r.design();
   if (design.unsafe_at && r.snatch && r.snatch->largest() > design.load)
     return fmt::format(
@@ -166,8 +177,9 @@ std::string advice_of(const FastestResult& r, double filling_distance, bool caut
   std::string text = fmt::format(
       "{}{}, the safe speed for infinite mass, in which the speed does not decrease during "
       "filling. Not included: failure of a reefing line{} and the stress of the cloth",
-      caution ? "at most " : "", printed(design.lowest), r.snatch ? "" : ", the snatch load");
-  if (caution) text += ". The payload is heavy: compute or measure the opening first (see the warning)";
+      r.design_load_caution.empty() ? "" : "at most ", printed(design.lowest),
+      r.snatch ? "" : ", the snatch load");
+  text += heavy_payload_note(r.design_load_caution);
   if (r.snatch && r.snatch->largest() > (1 + r.load_uncertainty) * design.load)
     text += fmt::format(". At this speed the snatch load of {} N is larger than the opening load",
                         rounded(r.snatch->largest()));
@@ -202,7 +214,8 @@ std::string to_json(const FastestResult& result) {
 }
 
 FastestResult run_fastest(const Settings& resolved, const LoadRequest& request, double margin,
-                          std::optional<LoadUncertainty> known, double least_load) {
+                          std::optional<LoadUncertainty> known,
+                          const std::function<double(double)>& least_load) {
   require_one_canopy(resolved, "an opening load");
   if (!(margin >= 0) || !std::isfinite(margin))
     throw Error(ExitCode::usage, fmt::format("a margin of safety of {:g}: must be 0 or above", margin));
@@ -216,7 +229,7 @@ FastestResult run_fastest(const Settings& resolved, const LoadRequest& request, 
   FastestResult r;
   const LoadInputs inputs = load_inputs(resolved, request);
   r.warnings = inputs.warnings;
-  const LoadsAtSpeed loads(resolved, request, inputs);
+  const LoadsAtSpeed loads(resolved, request, inputs, least_load);
   const LoadResult& fast = loads.at(fastest_deployment);
   r.title = fast.title, r.payload_mass = fast.payload_mass, r.parachute_mass = fast.parachute_mass;
   r.height = fast.height, r.density = fast.density, r.air_source = fast.air_source;
@@ -231,11 +244,12 @@ FastestResult run_fastest(const Settings& resolved, const LoadRequest& request, 
   const bool computed = fast.record_peak_load && request.reefing.empty() && fast.record_limit.empty();
   r.design_method = computed ? computed_method : infinite_mass_method;
   for (const MethodLoad& m : fast.stages.front().methods)
-    r.methods.push_back(safe_speed(resolved, loads, m.method, slowest, least_load, r));
+    r.methods.push_back(safe_speed(resolved, loads, m.method, slowest, r));
   r.snatch = loads.snatch(r.design().unsafe_at ? slowest : r.design().lowest.value_or(fastest_deployment));
   if (r.snatch && r.snatch->other_load) r.warnings.push_back(two_snatch_loads(*r.snatch));
-  r.advice = advice_of(r, fast.filling_constant, !fast.design_load_caution.empty());
-  if (!fast.design_load_caution.empty()) r.warnings.push_back(fast.design_load_caution);
+  r.design_load_caution = fast.design_load_caution;
+  r.advice = advice_of(r, fast.filling_constant);
+  if (!r.design_load_caution.empty()) r.warnings.push_back(r.design_load_caution);
   for (std::string& text : strain_warnings(resolved, 0)) r.warnings.push_back(std::move(text));
   for (std::string& text : hardware_warnings(resolved)) r.warnings.push_back(std::move(text));
   if (r.design().unsafe_at)

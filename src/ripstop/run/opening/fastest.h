@@ -2,6 +2,7 @@
 // method of run_load(): `ripstop load --fastest`.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -48,8 +49,9 @@ struct FastestResult {
   double margin = 0;            // of safety that every member keeps
   double load_uncertainty = 0;  // relative
   std::string load_uncertainty_from;
-  std::string design_method;  // of `methods`: whose lowest speed is the answer
-  std::string advice;         // which speed to use, and why the methods differ
+  std::string design_method;        // of `methods`: whose lowest speed is the answer
+  std::string design_load_caution;  // of the load; empty: none
+  std::string advice;               // which speed to use, and why the methods differ
   std::vector<SafeSpeed> methods;
   std::optional<SnatchResult> snatch;  // at the speed of the advice; absent: no speed difference is given
   std::vector<std::string> warnings;
@@ -69,6 +71,7 @@ void each_member(T& r, Visit&& visit) {
   visit("load_uncertainty", r.load_uncertainty);
   visit("load_uncertainty_from", r.load_uncertainty_from);
   visit("design_method", r.design_method);
+  visit("design_load_caution", r.design_load_caution);
   visit("advice", r.advice);
   visit("methods", r.methods);
   visit("snatch", r.snatch);
@@ -81,10 +84,11 @@ std::string to_json(const FastestResult& result);
 /// openings (opening_scatter), as independent parts. Lines, riser and hardware also have to carry the snatch load at that
 /// speed (snatch_of()), which is taken without an uncertainty. The design method is a coupled opening that has filled,
 /// else infinite mass or a larger load of the computed opening. `known` replaces load_uncertainty() of the drag
-/// coefficient, and the canopy carries the `least_load` [N] at any speed. Throws Error(usage) as run_load(), for a margin
+/// coefficient, and the canopy carries at least `least_load` [N], a function of the speed [m/s]. Throws Error(usage) as run_load(), for a margin
 /// below 0, and for a parachute in which no strength of lines, tape, riser and hardware is known.
 FastestResult run_fastest(const Settings& resolved, const LoadRequest& request, double margin = 0,
-                          std::optional<LoadUncertainty> known = {}, double least_load = 0);
+                          std::optional<LoadUncertainty> known = {},
+                          const std::function<double(double)>& least_load = {});
 
 /// result.json.
 void write_fastest(const std::filesystem::path& folder, const FastestResult& result);

@@ -49,7 +49,7 @@ std::vector<MethodLoad> handbook_methods(const Settings& resolved, double speed)
 std::optional<FiniteMassRange> finite_mass_range(const std::vector<MethodLoad>& methods) {
   std::optional<FiniteMassRange> range;
   for (const MethodLoad& m : methods) {
-    if (!m.applies || m.method == infinite_mass_method) continue;
+    if (!m.applies || m.method == infinite_mass_method || m.method == computed_method) continue;
     if (!range) range = {m.load, m.load};
     range->lowest = std::min(range->lowest, m.load), range->highest = std::max(range->highest, m.load);
   }
@@ -75,11 +75,18 @@ std::string heavy_payload_advice() {
   return fmt::format(
       "Coupled openings of solid canopies at mass ratios below {:g} have up to {:g} times the infinite-mass "
       "load of the handbook, because the canopy fills within two nominal diameters "
-      "(docs/validation/inflation.md). Compute the opening at the airspeed V at line stretch: ripstop "
-      "inflate "
-      "CASE --air coupled --set inflation.mass=payload --speed V --out RUN. Then use it: ripstop load CASE "
-      "--speed V --opening RUN. A measured load (--measured-load) also replaces the handbook",
+      "(docs/validation/inflation.md). Compute the opening: ripstop inflate CASE --air coupled --set "
+      "inflation.mass=payload --out RUN. Its speed is payload.deployment_speed_m_s of the case, or --speed; "
+      "--check states its time. Use it in ripstop load with --opening RUN, and in ripstop recovery with "
+      "--main-opening RUN or --drogue-opening RUN. A measured load also replaces the handbook "
+      "(--measured-load, --main-measured-load, --drogue-measured-load)",
       heavy_mass_ratio, computed_over_handbook);
+}
+
+std::string heavy_payload_note(const std::string& caution) {
+  return caution.empty()
+             ? ""
+             : "; the payload is heavy: compute or measure the opening before you use this (see the warning)";
 }
 
 std::optional<std::string> handbook_disagreement(double computed, std::optional<double> distance,

@@ -38,6 +38,9 @@ std::optional<FiniteMassRange> finite_mass_range(const std::vector<MethodLoad>& 
 std::string heavy_payload(const Settings& resolved, const LoadResult& load);
 /// Load of the coupled openings of canopies with a heavy payload, and the remedy.
 std::string heavy_payload_advice();
+/// After a number that follows from the load of a heavy payload: "; the payload is heavy: ..."; empty without a `caution`
+/// (LoadResult::design_load_caution).
+std::string heavy_payload_note(const std::string& caution);
 
 /// Warning if `computed` [N] is outside the range of the finite-mass methods of `methods` by more than
 /// opening_scatter; else nothing. `distance` is the computed path to the peak over D0, where it is known.

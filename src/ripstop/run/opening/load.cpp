@@ -287,7 +287,7 @@ void fly_record(const OpeningRecord& record, const LoadRequest& request, LoadRes
   }
   if (const auto text =
           handbook_disagreement(peak.force, peak.state.distance / r.nominal_diameter, stage.methods))
-    r.warnings.push_back(*text);
+    r.opening_warnings.push_back(*text);
   stage.methods.push_back({computed_method, peak.force, peak.state.time, true, from});
   compare_methods(stage);
 }
@@ -302,7 +302,7 @@ void warn_of_small_measurement(LoadResult& r) {
   for (const StageLoads& stage : r.stages) least = std::max(least, stage.lowest);
   if (r.design_load >= least) return;
   const auto [measured, estimate] = rounded_apart(r.design_load, least, 4);
-  r.warnings.push_back(
+  r.opening_warnings.push_back(
       fmt::format("the measured load of {} N is below every applicable estimate (at least {} N): check unit, "
                   "speed and mass of the measurement",
                   measured, estimate));
@@ -343,6 +343,7 @@ void choose_design_load(const Settings& resolved, const LoadRequest& request, co
     r.warnings.push_back(r.design_load_caution);
   }
   if (request.measured_load) warn_of_small_measurement(r);
+  r.warnings.insert(r.warnings.end(), r.opening_warnings.begin(), r.opening_warnings.end());
   const double mach = request.speed / standard_air(r.height).sound_speed;
   for (const std::string& text : outside_range(infinite_mass_model, {{"Mach number", mach}}))
     r.warnings.push_back(text);
@@ -357,19 +358,12 @@ void take_required_load(const Settings& resolved, LoadResult& r) {
   r.highest_margins = load_margins(resolved, r.highest_design_load, largest_snatch);
   if (const Margin* least = weakest(*r.highest_margins))
     r.smallest_margin = least->margin, r.smallest_margin_member = least->member;
-  const Margin* usual = weakest(*r.margins);
-  if (usual && *usual->margin < 0)
-    for (const std::string& text : margin_warnings(r.highest_margins))
-      r.warnings.push_back(text + (largest_snatch > r.highest_design_load
-                                       ? ". The load is that under the highest design load or the snatch load"
-                                       : ". The load is that under the highest design load"));
-  else if (usual && *r.smallest_margin < 0)
-    r.warnings.push_back(fmt::format(
-        "under the highest design load of {} N, which contains the uncertainty of {:.0f} %, the "
-        "{} exceeds its allowable load (margin of safety {}): the fastest safe deployment (ripstop "
-        "load --fastest) is slower than {:g} m/s; use a stronger material",
-        rounded(r.highest_design_load), 100 * r.load_uncertainty, r.smallest_margin_member,
-        margin_text(*r.smallest_margin), r.speed));
+  for (const std::string& text : margin_warnings(r.highest_margins))
+    r.warnings.push_back(text + ". The load is that under the highest design load" +
+                         (largest_snatch > r.highest_design_load
+                              ? " or the snatch load"
+                              : fmt::format(" of {} N, which contains the uncertainty of {:.0f} %",
+                                            rounded(r.highest_design_load), 100 * r.load_uncertainty)));
   if (!r.snatch) return;
   for (const auto& [part, ratio] :
        {std::pair("a line", r.snatch->line_margin), std::pair("the riser", r.snatch->riser_margin)})

@@ -132,6 +132,7 @@ struct LoadResult {
   double steady_speed = 0, steady_time = 0, steady_drop = 0;  // where the descent is steady [m/s], [s], [m]
   bool steady_reached = false;
   std::vector<std::string> warnings;
+  std::vector<std::string> opening_warnings;  // of these, on a measured or computed load; not in result.json
   std::vector<FlightRow> flight, record_flight;  // not in result.json: trajectory.csv
 };
 template <Of<LoadResult> T, class Visit>

@@ -6,6 +6,7 @@
 #include "ripstop/core/words.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/margins.h"
+#include "ripstop/run/opening/load.h"
 #include "ripstop/run/steady/warnings.h"
 
 namespace ripstop::inline run {
@@ -24,17 +25,27 @@ Json to_json(const std::vector<Source>& sources, const Json& written) {
   return list;
 }
 
+/// Of the highest design load, as ripstop load has it. A family without a known drag coefficient has the usual one.
+LoadUncertainty uncertainty_of(const Settings& resolved) {
+  const bool known = resolved.inflation().drag_coefficient.has_value() ||
+                     experience(resolved.parachute()).drag_coefficient.high > 0;
+  return load_uncertainty(known ? opening_drag_coefficient(resolved, {})
+                                : DragCoefficient{0, "assumed", usual_drag_uncertainty, ""});
+}
+
 }  // namespace
 
 CheckResult run_check(const Settings& resolved) {
   std::vector<std::string> warnings = resolved.deprecations();
   for (const std::string& text : case_warnings(resolved)) warnings.push_back(text);
   const UsualOpening opening = usual_opening(resolved.written());
-  for (const std::string& text : margin_warnings(load_margins(resolved, opening.load)))
+  const LoadUncertainty uncertainty = uncertainty_of(resolved);
+  const double load = (1 + uncertainty.value) * opening.load;
+  for (const std::string& text : margin_warnings(load_margins(resolved, load)))
     warnings.push_back(
-        fmt::format("in an opening at {} m/s ({}), with the infinite-mass load of {} N without its "
-                    "uncertainty: {}; for another speed use ripstop load --speed",
-                    rounded(opening.speed, 3), opening.from, rounded(opening.load), text));
+        fmt::format("in an opening at {} m/s ({}), with the infinite-mass load of {} N, which contains the "
+                    "uncertainty of {:.0f} %: {}; for another speed use ripstop load --speed",
+                    rounded(opening.speed, 3), opening.from, rounded(load), 100 * uncertainty.value, text));
   return {summarize(resolved), resolved.sources(), std::move(warnings), resolved};
 }
 
