@@ -261,7 +261,7 @@ TEST(UnsteadyRun, LeavesItsHistoryAndItsWakeInTheFolder) {
   EXPECT_NEAR(
       history.column("time_s").back() - history.column("time_s").front() + history.column("step_s")[0],
       watched.time, 1e-9);
-  // The wake is that of an earlier window: the stream need not pass the box of 4 m once more.
+  // The wake is that of an earlier window: the stream need not pass the box of 4 m again.
   EXPECT_LT(watched.start_up, std::min(4.0 / 20, 0.45 * watched.time));
   EXPECT_GT(watched.mass_defect, 0);
   EXPECT_LT(watched.mass_defect, quality_limit("mass_defect").warn);
