@@ -139,8 +139,7 @@ int run(const MaterialsArguments& options) {
   }
   MaterialList list = library_materials();
   const std::string kind = options.kind == "cloth" ? "fabric" : options.kind;
-  if (kind != "all")
-    std::erase_if(list.materials, [&](const MaterialEntry& m) { return m.kind != kind; });
+  if (kind != "all") std::erase_if(list.materials, [&](const MaterialEntry& m) { return m.kind != kind; });
   if (options.json)
     fmt::print("{}", to_json(list));
   else

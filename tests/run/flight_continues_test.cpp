@@ -28,7 +28,8 @@ Case small_deployment() {
   Case given = small_payload_case(8);
   given.inflation.initial_radius_m = 0.12;
   given.inflation.duration_s = 0.02, given.inflation.frames = 4;
-  given.inflation.cloth_damping_s = 0;  // damped cloth has a larger load at the end, and all differences with it
+  given.inflation.cloth_damping_s =
+      0;  // damped cloth has a larger load at the end, and all differences with it
   given.flight.start = FlightSettings::Start::inflation;
   given.flight.cells_across = 12;
   given.flight.duration_s = 0.03;
