@@ -132,9 +132,10 @@ void print_fastest(const FastestResult& r, const fs::path& folder, const std::op
              air_text(r.height, r.density, r.air_source));
   print_text("  FASTEST SAFE DEPLOYMENT {}\n", safe_speed_text(r.design(), r.design_load_caution));
   print_text(
-      "  margin of safety {:g} of tape or hem, lines, riser and hardware (the cloth is not checked); "
+      "  margin of safety {:g} of {}tape or hem, lines, riser and hardware{}; "
       "uncertainty of the load {:.0f} %: {}\n\n",
-      r.margin, 100 * r.load_uncertainty, r.load_uncertainty_from);
+      r.margin, r.cloth_checked ? "cloth, " : "", r.cloth_checked ? "" : " (the cloth is not checked)",
+      100 * r.load_uncertainty, r.load_uncertainty_from);
   for (const SafeSpeed& s : r.methods)
     print_text("  {:<18} {}; load {:.1f} N at {}{}\n", s.method, safe_speed_text(s), s.load,
                s.unsafe_at ? fmt::format("{:.1f} m/s", *s.unsafe_at)
@@ -188,7 +189,8 @@ void print_result(const LoadResult& r, const fs::path& folder, const std::option
         "  The design load is computed without a filling distance. Methods with a smaller load assume "
         "one.\n");
   print_text("  The load of an \"estimate\" is expected if the canopy fills as that method assumes.\n");
-  if (r.margins && r.highest_margins) print_margins(*r.margins, *r.highest_margins, snatch);
+  if (r.margins && r.highest_margins)
+    print_margins(*r.margins, *r.highest_margins, r.design_load_caution, snatch);
   print_row("required hardware", hardware_text(r.hardware, r.design_load_caution));
   std::string caution;
   const StageLoads* before = nullptr;

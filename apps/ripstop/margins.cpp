@@ -39,34 +39,34 @@ std::string used_text(const Margin& m) {
 }
 
 /// `under` names the load of the margins ("under the highest design load, "); empty: a row above does.
-void print_weakest(const Margins& margins, const std::string& under) {
+void print_weakest(const Margins& margins, const std::string& under, const std::string& caution) {
   if (margins.weakest.empty()) return;
   const Margin& m = *weakest(margins);
   const bool with_cloth = std::any_of(margins.members.begin(), margins.members.end(),
                                       [](const Margin& each) { return each.member == "cloth"; });
-  print_row(
-      "weakest member",
-      fmt::format("{}{}: {} {} {} times safety factor {:.3g}, allowable load {} {} ({:.0f} % of the "
-                  "{}); margin of safety {}{}{}",
-                  under, m.member, m.load_from.value_or("load"), rounded(m.load), m.unit,
-                  *m.used * *m.strength * m.knock_down / m.load, rounded(*m.strength * m.knock_down), m.unit,
-                  100 * m.knock_down, m.strength_from, margin_text(*m.margin),
-                  *m.margin < 0 ? ": ALLOWABLE LOAD EXCEEDED" : "",
-                  with_cloth ? "" : "; the cloth is not checked (ripstop inflate computes its stress)"));
+  print_row("weakest member",
+            fmt::format("{}{}: {} {} {} times safety factor {:.3g}, allowable load {} {} ({:.0f} % of the "
+                        "{}); margin of safety {}{}{}{}",
+                        under, m.member, m.load_from.value_or("load"), rounded(m.load), m.unit,
+                        *m.used * *m.strength * m.knock_down / m.load, rounded(*m.strength * m.knock_down),
+                        m.unit, 100 * m.knock_down, m.strength_from, margin_text(*m.margin),
+                        *m.margin < 0 ? ": ALLOWABLE LOAD EXCEEDED" : "",
+                        with_cloth ? "" : "; the cloth is not checked (ripstop inflate computes its stress)",
+                        heavy_payload_note(caution)));
 }
 
 }  // namespace
 
-void print_margins(const std::optional<Margins>& margins) {
+void print_margins(const std::optional<Margins>& margins, const std::string& caution) {
   if (!margins) return;
   std::string text;
   for (const Margin& m : weakest_of_kinds(*margins))
     text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", m.member, used_text(m));
   print_row("utilisation", text);
-  print_weakest(*margins, "");
+  print_weakest(*margins, "", caution);
 }
 
-void print_margins(const Margins& design, const Margins& highest, bool snatch) {
+void print_margins(const Margins& design, const Margins& highest, const std::string& caution, bool snatch) {
   std::string text;
   for (const Margin& m : design.members) {
     const auto with_highest = std::find_if(highest.members.begin(), highest.members.end(),
@@ -79,7 +79,8 @@ void print_margins(const Margins& design, const Margins& highest, bool snatch) {
             text + "; under the design load (under the highest design load)" +
                 (snatch ? "; of lines, riser and hardware at least under the snatch load" : ""));
   print_weakest(highest,
-                fmt::format("under the highest design load{}, ", snatch ? " or the snatch load" : ""));
+                fmt::format("under the highest design load{}, ", snatch ? " or the snatch load" : ""),
+                caution);
 }
 
 std::string finite_mass_text(const std::optional<double>& lowest, const std::optional<double>& highest,

@@ -61,7 +61,8 @@ void print_stage(const RecoveryStage& s, bool wind) {
       fmt::format("{}: {}", range_text({s.design_load, s.lowest_design_load, s.highest_design_load}, "N"),
                   s.design_load_from));
   print_row("uncertainty of the load",
-            fmt::format("{:.0f} % at one speed: {}", 100 * s.load_uncertainty, s.load_uncertainty_from));
+            fmt::format("{:.0f} %{}: {}", 100 * s.load_uncertainty, s.of_trajectory ? "" : " at one speed",
+                        s.load_uncertainty_from));
   if (s.snatch_load)
     print_row("snatch load", fmt::format("{} N by [deployment] of its case, at the highest airspeed",
                                          rounded(*s.snatch_load)));
@@ -75,7 +76,7 @@ void print_stage(const RecoveryStage& s, bool wind) {
                             ? "; of lines, riser and hardware under the snatch load"
                             : "",
                         heavy_payload_note(s.design_load_caution)));
-  print_margins(s.margins);
+  print_margins(s.margins, s.design_load_caution);
   print_row("required hardware", hardware_text(s.hardware, s.design_load_caution));
   print_row("fastest safe deployment", s.safe ? safe_speed_text(*s.safe, s.design_load_caution)
                                               : "not computed: a measured load is that at one speed");

@@ -20,6 +20,7 @@
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/run/flight/finished_flight.h"
 #include "ripstop/run/flight/flight_folder.h"
+#include "ripstop/run/opening/handbook.h"
 #include "ripstop/run/sizing/size_report.h"
 #include "ripstop/run/steady/steady_folder.h"
 #include "steady_terminal.h"
@@ -68,16 +69,18 @@ void print_result(const SizeResult& r, const SizeArguments& options, const fs::p
   row("gores, lines",
       fmt::format("{} gores, {} lines of {:.3f} m, {}{}", r.gores, r.line_count, r.line_length,
                   r.line_material, r.gores_source.empty() ? "" : "; " + r.gores_source));
-  row("tape", fmt::format("{}: {}", r.tape_material, r.tape_source));
+  row("tape",
+      fmt::format("{}: {}{}", r.tape_material, r.tape_source, heavy_payload_note(r.design_load_caution)));
   row("mass", fmt::format("{:.3g} kg: cloth {:.3g} kg, tape {:.3g} kg, lines {:.3g} kg", r.parachute_mass,
                           r.cloth_mass, r.tape_mass, r.line_mass));
   row("packed volume", packed_text(r.parachute_mass, r.packed_volume));
-  row("DESIGN LOAD", fmt::format("{:.0f} N at {:.3g} m/s{}: {}; largest line load {:.2f} times the mean",
-                                 r.design_load, r.deployment_speed,
-                                 r.deployment_speed == usual_deployment_speed(r.descent_rate)
-                                     ? ", the default of --deployment-speed"
-                                     : "",
-                                 r.design_load_from, r.line_load_factor));
+  row("DESIGN LOAD",
+      fmt::format("{:.0f} N at {:.3g} m/s{}: {}; largest line load {:.2f} times the mean{}", r.design_load,
+                  r.deployment_speed,
+                  r.deployment_speed == usual_deployment_speed(r.descent_rate)
+                      ? ", the default of --deployment-speed"
+                      : "",
+                  r.design_load_from, r.line_load_factor, heavy_payload_note(r.design_load_caution)));
   if (r.smallest_margin)
     row("highest design load",
         fmt::format("{:.0f} N with the uncertainty of {:.0f} % ({}): margin of safety {}, {}",
@@ -87,7 +90,7 @@ void print_result(const SizeResult& r, const SizeArguments& options, const fs::p
       finite_mass_text(r.lowest_finite_mass_load, r.highest_finite_mass_load, r.design_load,
                        fmt::format("fills over {:.3g} D0", r.opening.front().filling_constant)));
   if (!r.opening.front().caution.empty()) row("", r.opening.front().caution);
-  if (r.margins && r.highest_margins) print_margins(*r.margins, *r.highest_margins);
+  if (r.margins && r.highest_margins) print_margins(*r.margins, *r.highest_margins, r.design_load_caution);
   for (const SizeCheck& c : r.checks)
     row(c.basis == "descent" ? "flight" : "run",
         fmt::format("diameter {:.3f} m, rate of descent {:.3f}{} m/s, C_D {:.3f} ({})", c.nominal_diameter,

@@ -89,7 +89,8 @@ TEST(RecoveryCommand, QualifiesTheNumbersOfAHeavyPayloadAndTakesAMeasuredLoad) {
   const TemporaryFolder folder("recovery");
   const std::vector<std::string> heavy = recovery(folder, {"--mass", "22"});
   const std::string output = ripstop_with(heavy).output;
-  for (const char* row : {"margins and hardware", "required hardware", "fastest safe deployment"})
+  for (const char* row :
+       {"margins and hardware", "weakest member", "required hardware", "fastest safe deployment"})
     EXPECT_TRUE(std::regex_search(
         output, std::regex(std::string(row) + ".*the payload is heavy: compute or measure the opening")))
         << row << "\n"
@@ -99,6 +100,22 @@ TEST(RecoveryCommand, QualifiesTheNumbersOfAHeavyPayloadAndTakesAMeasuredLoad) {
   EXPECT_EQ(measured.code, 0) << measured.output;
   EXPECT_EQ(measured.output.find("the payload is heavy"), std::string::npos) << measured.output;
   EXPECT_NE(measured.output.find("not computed: a measured load is that at one speed"), std::string::npos);
+}
+
+TEST(SizeCommand, QualifiesTheNumbersOfAHeavyPayload) {
+  const TemporaryFolder folder("size-heavy");
+  const auto sized = [&](const char* speed, const char* rate, const char* mass) {
+    return ripstop_with({"size", "--mass", mass, "--descent-rate", rate, "--deployment-speed", speed,
+                         "--force", "--out", (folder.path / "heavy.toml").string()})
+        .output;
+  };
+  const std::string heavy = sized("30", "25", "22"), light = sized("20", "5", "2.4");
+  for (const char* row : {"DESIGN LOAD", "weakest member", "\n  tape"})
+    EXPECT_TRUE(std::regex_search(
+        heavy, std::regex(std::string(row) + ".*the payload is heavy: compute or measure the opening")))
+        << row << "\n"
+        << heavy;
+  EXPECT_EQ(light.find("the payload is heavy"), std::string::npos) << light;
 }
 
 TEST(RecoveryCommand, StatesWarningsInBothUnits) {

@@ -65,26 +65,28 @@ Margins case_margins(const Settings& resolved, const CanopyMesh& mesh,
   return margins;
 }
 
-Margins load_margins(const Settings& resolved, double load, double snatch) {
+Margins load_margins(const Settings& resolved, double load, double snatch, const MemberShares& shares) {
   const PartMaterials& materials = resolved.materials();
   return load_margins(resolved.parachute(), resolved.margins(), materials.canopy,
                       materials.tape ? &*materials.tape : nullptr, load, materials.line, materials.riser,
-                      resolved.hardware(), snatch);
+                      resolved.hardware(), snatch, shares);
 }
 
 Margins load_margins(const Design& design, const MarginFactors& factors, const Fabric& cloth,
                      const Tape* tape, double load, const Line& line, const Line& riser,
-                     const HardwareParts& hardware, double snatch) {
+                     const HardwareParts& hardware, double snatch, const MemberShares& shares) {
   const double share = experience(design).line_load_factor / design.lines.count;
-  const double line_load = share * load, largest = std::max(load, snatch);
+  const double line_load = std::max(share, shares.line) * load, largest = std::max(load, snatch);
   MemberLoads loads;
-  if (tape) loads = edge_loads(line_load, tape);
-  loads.lines = {share * largest};
-  if (design.riser.length_m > 0) loads.riser = largest;
+  if (tape) loads = edge_loads(std::max(line_load, shares.tape * load), tape);
+  loads.cloth = shares.cloth * load;
+  loads.lines = {std::max(line_load, share * snatch)};
+  if (design.riser.length_m > 0) loads.riser = std::max(largest, shares.riser * load);
   loads.hardware = largest;
   Margins margins = margins_of(loads, factors, cloth, tape, line, riser, hardware);
   if (!tape) add_hem(line_load, factors, cloth, margins);
-  margins.members.erase(margins.members.begin());  // the cloth, whose load is not known
+  if (!(shares.cloth > 0))
+    margins.members.erase(margins.members.begin());  // the load of the cloth is not known
   for (Margin& m : margins.members)
     if (m.member == "line 1") m.member = "line";
   take_weakest(margins);

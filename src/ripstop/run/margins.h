@@ -45,13 +45,22 @@ Margins case_margins(const Settings& resolved, const CanopyMesh& mesh,
                      const std::vector<double>& reefing_tensions = {},
                      std::optional<double> largest_load = {});
 
+/// The largest loads of the members of a computed opening over its load; 0: not known. A line of such an opening can
+/// carry more than an equal share.
+struct MemberShares {
+  double cloth = 0;  // [1/m]
+  double tape = 0, line = 0, riser = 0;
+};
+
 /// Of lines, tape or hem, riser and hardware under an opening load [N]. A line carries an equal share of it times the
 /// family's line_load_factor, and the tape the load of one line, as in tape_for(); without one (null) a hem of the cloth.
 /// Lines, riser and hardware carry a larger `snatch` load in its place; the edges of the packed canopy do not.
+/// Members of a computed opening carry its `shares` of the load where these are larger, and the cloth is listed.
 Margins load_margins(const Design& design, const MarginFactors& factors, const Fabric& cloth,
                      const Tape* tape, double load, const Line& line, const Line& riser,
-                     const HardwareParts& hardware = {}, double snatch = 0);
-Margins load_margins(const Settings& resolved, double load, double snatch = 0);
+                     const HardwareParts& hardware = {}, double snatch = 0, const MemberShares& shares = {});
+Margins load_margins(const Settings& resolved, double load, double snatch = 0,
+                     const MemberShares& shares = {});
 
 /// One row a kind of member: of the lines the weakest.
 std::vector<Margin> weakest_of_kinds(const Margins& margins);

@@ -236,9 +236,46 @@ TEST(Recovery, AMeasuredLoadReplacesTheHandbookAndIsScaledToTheRangeOfSpeeds) {
   EXPECT_FALSE(main.safe);
   EXPECT_EQ(drogue.highest_design_load,
             run_recovery(canopy(3.5), canopy(0.7), request()).stages[0].highest_design_load);
-  measured.main_measured_load = 20;
+  measured.main_measured_load = 400;
   EXPECT_TRUE(warns_of(run_recovery(canopy(3.5), canopy(0.7), measured),
-                       "main: the measured load of 20 N is below every applicable estimate"));
+                       "main: the measured load of 400 N is below every applicable estimate"));
+}
+
+TEST(Recovery, AMeasuredLoadBelowTheLargestForceOfTheTrajectoryIsNotUsed) {
+  const RecoveryStage handbook = run_recovery(canopy(3.5), canopy(0.7), request()).stages[0];
+  RecoveryRequest measured = request();
+  measured.drogue_measured_load = 100;
+  const RecoveryResult r = run_recovery(canopy(3.5), canopy(0.7), measured);
+  EXPECT_TRUE(warns_of(r, "drogue: the measured load of 100 N is below the largest force of the trajectory"));
+  ASSERT_TRUE(r.stages[0].safe);
+  EXPECT_EQ(r.stages[0].safe->lowest, handbook.safe->lowest);
+  EXPECT_NE(r.stages[0].design_load_caution, "");
+  EXPECT_EQ(r.stages[0].design_load_caution, handbook.design_load_caution);
+  EXPECT_EQ(r.stages[0].highest_design_load, handbook.highest_design_load);
+}
+
+// The uncertainty leads from the design load to its upper end where both are forces of the trajectories.
+TEST(Recovery, TheUncertaintyOfALargestForceOfTheTrajectoryIsThatOfItsRange) {
+  RecoveryRequest slow = request();
+  slow.speed = 5;
+  const RecoveryStage s = run_recovery(canopy(3.5), canopy(0.7), slow).stages[0];
+  ASSERT_EQ(s.design_load_from, "largest force of the trajectory");
+  ASSERT_TRUE(s.of_trajectory);
+  EXPECT_NEAR(s.highest_design_load, (1 + s.load_uncertainty) * s.design_load, 1e-9 * s.design_load);
+  EXPECT_GE(s.load_uncertainty, 0.15 - 1e-9);
+  EXPECT_EQ(s.load_uncertainty_from.find("largest force of the trajectories"), 0u) << s.load_uncertainty_from;
+  EXPECT_FALSE(run_recovery(canopy(3.5), canopy(0.7), request()).stages[1].of_trajectory);
+}
+
+TEST(Recovery, AFastFallWithoutTheDragOfTheRocketIsWarnedOf) {
+  const auto warned = [](double delay, double area) {
+    RecoveryRequest late = request();
+    late.delay = delay, late.body_drag_area = area;
+    return warns_of(run_recovery(canopy(3.5), {}, late), "without the drag of the rocket");
+  };
+  EXPECT_TRUE(warned(20, 0));
+  EXPECT_FALSE(warned(20, 0.01));
+  EXPECT_FALSE(warned(1, 0));
 }
 
 TEST(Recovery, WarnsOfAnOpeningWithoutASafeSpeed) {

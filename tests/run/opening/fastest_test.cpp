@@ -143,6 +143,18 @@ TEST(Fastest, OnASteepPathNearTheRateOfDescentIsForTheDesignLoad) {
             "constant speed is assumed; on this path the speed increases during filling");
 }
 
+// On a steep path the search begins at the speed above which the canopy decelerates the payload, which is stated.
+TEST(Fastest, WithoutASafeSpeedNamesThePathAndTheHeightOfTheSearch) {
+  LoadRequest asked = level_request();
+  const Settings weak = circular_with({{"hardware.link.rated_load_n", "1"}});
+  EXPECT_EQ(run_fastest(weak, asked).advice.find("--angle"), std::string::npos);
+  asked.path_angle = 60;
+  const std::string advice = run_fastest(weak, asked).advice;
+  for (const char* text :
+       {"no speed", "path 60 deg below the horizon, 500 m above sea level", "--angle", "--height"})
+    EXPECT_NE(advice.find(text), std::string::npos) << text << "\n" << advice;
+}
+
 // A load that does not depend on the speed, as the weight in a descent, is carried too. One that is too large at the
 // speed of a flight is none at a lower speed.
 TEST(Fastest, WithALeastLoadIsTheSpeedAtWhichThatLoadIsCarried) {

@@ -144,6 +144,47 @@ TEST_F(OpeningRecords, OfACoupledOpeningGivesTheLoadsOfARecovery) {
   EXPECT_EQ(stage.safe->method, computed_method);
 }
 
+// One of 12 lines or so carries 0.3 of the load, and the cloth 3 N/m of each newton.
+TEST_F(OpeningRecords, TheMarginsHaveTheMemberLoadsOfTheOpeningAndNotAnEqualShare) {
+  given.inflation.air = AirModel::coupled;
+  const auto opened = [&](const char* margins) {
+    write(opening_history, nullptr, nullptr,
+          fmt::format("{{\"peak_load_n\": 500, \"filled\": true{}}}", margins));
+    LoadRequest asked;
+    asked.payload_mass = 2.4, asked.speed = 20, asked.path_angle = 0, asked.opening = folder;
+    return asked;
+  };
+  const LoadRequest equal = opened("");
+  const LoadResult shared = run_load(resolve(given), equal);
+  const FastestResult fast = run_fastest(resolve(given), equal);
+  const LoadRequest asked = opened(
+      ", \"margins\": {\"members\": [{\"member\": \"cloth\", \"load\": 1500}, {\"member\": \"line 1\", "
+      "\"load\": 100}, {\"member\": \"line 2\", \"load\": 150}]}");
+  const LoadResult own = run_load(resolve(given), asked);
+  ASSERT_EQ(own.design_method, computed_method);
+  EXPECT_EQ(own.design_load, shared.design_load);
+  const auto load_of = [](const Margins& margins, const std::string& member) {
+    for (const Margin& m : margins.members)
+      if (m.member == member) return m.load;
+    return 0.0;
+  };
+  EXPECT_EQ(load_of(*shared.margins, "cloth"), 0);
+  EXPECT_NEAR(load_of(*own.margins, "cloth"), 3 * own.design_load, 1e-9 * own.design_load);
+  EXPECT_NEAR(load_of(*own.highest_margins, "line"), 0.3 * own.highest_design_load, 1e-9 * own.design_load);
+  EXPECT_NEAR(own.line_load_factor, 0.3 * given.parachute.lines.count, 1e-12);
+  for (const char* edge : {"hem", "tape"})
+    EXPECT_NEAR(load_of(*own.margins, edge),
+                load_of(*shared.margins, edge) * own.line_load_factor / shared.line_load_factor, 1e-6)
+        << edge;
+  const FastestResult slower = run_fastest(resolve(given), asked);
+  ASSERT_TRUE(fast.design().lowest && slower.design().lowest);
+  EXPECT_LT(*slower.design().lowest, 0.9 * *fast.design().lowest);
+  RecoveryRequest rocket;
+  rocket.mass = 2.4, rocket.apogee = 1000, rocket.main_opening = folder;
+  const RecoveryStage stage = run_recovery(resolve(given), {}, rocket).stages.at(0);
+  EXPECT_NEAR(load_of(*stage.margins, "line"), 0.3 * stage.highest_design_load, 1e-9 * stage.design_load);
+}
+
 TEST_F(OpeningRecords, FillingIsThatOfTheResultAndRefusedWhereThereIsNone) {
   write(opening_history);
   EXPECT_NE(refusal_of([&] { computed_filling(folder, resolve(given)); }, ExitCode::usage)

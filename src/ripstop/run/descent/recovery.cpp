@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -16,11 +17,9 @@
 #include "ripstop/core/positive.h"
 #include "ripstop/core/words.h"
 #include "ripstop/flight/atmosphere.h"
-#include "ripstop/flight/descent.h"
 #include "ripstop/flight/validity.h"
 #include "ripstop/flight/wind.h"
-#include "ripstop/fsi/opening_estimate.h"
-#include "ripstop/run/opening/filling.h"
+#include "ripstop/run/descent/recovery_flight.h"
 #include "ripstop/run/opening/handbook.h"
 #include "ripstop/run/opening/snatch.h"
 #include "ripstop/run/steady/warnings.h"
@@ -28,45 +27,8 @@
 namespace ripstop::inline run {
 namespace {
 
-constexpr double longest_descent = 1e5, slow_step = 0.05, steps_of_filling = 400;  // [s], [s], -
-
-// A descent is steady within 5 % of the terminal speed of the open canopy, and not before three filling times. Until
-// then the drag area exceeds that of the open canopy. The filling time is the longest within two standard deviations.
-constexpr double steady_share = 0.05, steady_fillings = 3 * (1 + 2 * filling_time_scatter);
-
-struct RecoveryCanopy {
-  std::string name;
-  const Settings& resolved;
-  DragCoefficient drag;
-  DescentDrag range;
-  double area = 0, mass = 0;  // S0 [m2], [kg]
-  std::filesystem::path opening;
-  std::optional<double> measured_load;  // [N]
-  LoadInputs inputs;
-};
-
-/// Which coefficient of each parachute a flight has.
-enum class DragEnd { nominal, low, high };
-double drag_at(DragEnd end, const RecoveryCanopy& canopy) {
-  return end == DragEnd::low    ? canopy.range.low
-         : end == DragEnd::high ? canopy.range.high
-                                : canopy.drag.value;
-}
-
-/// One stage of one flight.
-struct FlownStage {
-  FlightState opening;
-  LoadResult load;                                              // of run_load() there
-  double others = 0, end_height = 0;                            // drag area of body and drogue [m2], [m]
-  bool filled = true;                                           // before the next opening or the ground
-  bool steady = true;                                           // at its end
-  double peak_force = 0;                                        // on its canopy along the trajectory [N]
-  double end_speed = 0, terminal = 0, duration = 0, drift = 0;  // terminal: of the open canopy at the end
-};
-struct Flown {
-  std::vector<FlownStage> stages;
-  std::vector<RecoveryRow> rows;
-};
+// A fall at which the drag of a rocket body is no longer small against its weight (assumed) [m/s].
+constexpr double fast_fall = 30;
 
 void check_recovery(const RecoveryRequest& q, bool two_stages) {
   require_positive("mass that descends (kg)", q.mass);
@@ -85,153 +47,6 @@ void check_recovery(const RecoveryRequest& q, bool two_stages) {
                             "{:g} m",
                             q.main_height, q.apogee));
 }
-
-/// Opening of a canopy at a state of the flight, of the whole mass [kg].
-LoadRequest opening_of(const RecoveryCanopy& canopy, double drag_coefficient, const FlightState& state,
-                       double mass, const RecoveryRequest& request) {
-  LoadRequest asked;
-  asked.payload_mass = mass - canopy.mass;
-  asked.speed = state.speed, asked.height = state.height, asked.ground = request.ground;
-  asked.path_angle = std::clamp(state.path_angle, -90.0, 90.0);
-  asked.drag_coefficient = drag_coefficient;
-  asked.opening = canopy.opening, asked.measured_load = canopy.measured_load;
-  asked.descent = false;
-  // Slower than it will descend, as soon after apogee: methods without gravity; the trajectory has the weight.
-  if (state.speed <= 1.001 * slowest_opening(mass, drag_coefficient * canopy.area,
-                                             standard_air(state.height).density, asked.path_angle))
-    asked.path_angle = 0;
-  return asked;
-}
-
-LoadResult load_of(const RecoveryCanopy& canopy, const LoadRequest& asked) {
-  LoadInputs inputs = canopy.inputs;
-  inputs.drag = opening_drag_coefficient(canopy.resolved, asked);
-  return run_load(canopy.resolved, asked, inputs);
-}
-
-/// A measured load or a computed opening replaces the filling of the handbook.
-bool replaces_filling(const LoadResult& load) {
-  return load.design_method.empty() || load.design_method == computed_method;
-}
-
-/// A canopy fills, and is then open until the next opening or the ground.
-struct StageLegs {
-  Leg filling, open;
-};
-StageLegs legs_of(const LoadResult& load, double others, double end_height) {
-  const StageLoads& opening = load.stages.front();
-  const double cx = load.opening_coefficient, j = load.filling_exponent, area = opening.drag_area;
-  const DragArea own = filling(0, area, opening.filling_time, j, cx);
-  const double settled = opening.filling_time * (2 + std::pow(cx, 1 / j));
-  return {{[=](double t, double s) { return others + own(t, s); }, settled,
-           opening.filling_time / steps_of_filling, end_height},
-          {[=](double, double) { return others + area; }, longest_descent, slow_step, end_height}};
-}
-
-/// On the canopy itself, without the drag of the others [N].
-double force_on_canopy(const FlightRow& row, double others) {
-  return row.drag_area > others ? row.force * (1 - others / row.drag_area) : 0;
-}
-
-/// Largest force on the canopy if the stage begins at `speed` [m/s], else as in its flight [N].
-double peak_force_at(double speed, const RecoveryCanopy& canopy, const FlownStage& stage,
-                     const RecoveryRequest& request) {
-  FlightState state = stage.opening;
-  state.speed = speed;
-  const double mass = stage.load.payload_mass + canopy.mass;
-  const LoadResult load =
-      load_of(canopy, opening_of(canopy, stage.load.drag_coefficient, state, mass, request));
-  const StageLegs legs = legs_of(load, stage.others, stage.end_height);
-  double peak = 0;
-  const auto fly_leg = [&](const Leg& leg) {
-    double highest = 0;
-    for (const FlightRow& row : fly(state, mass, leg))
-      highest = std::max(highest, force_on_canopy(row, stage.others));
-    return highest;
-  };
-  const double filling_peak = fly_leg(legs.filling);
-  if (!replaces_filling(load)) peak = filling_peak;
-  if (state.height > stage.end_height) peak = std::max(peak, fly_leg(legs.open));
-  return peak;
-}
-
-class RecoveryFlight {
- public:
-  RecoveryFlight(const std::vector<RecoveryCanopy>& canopies, const RecoveryRequest& request,
-                 const Wind& wind, double body_area, DragEnd end)
-      : canopies_(canopies), request_(request), wind_(wind), body_area_(body_area), end_(end) {
-    mass_ = request.mass;
-    for (const RecoveryCanopy& canopy : canopies) mass_ += canopy.mass;
-  }
-
-  Flown fly_down() {
-    state_ = {0, 0, 0, request_.ground + request_.apogee, request_.speed, 0};
-    if (request_.delay > 0)
-      append({[this](double, double) { return body_area_; }, request_.delay, 0.01, request_.ground});
-    for (std::size_t i = 0; i < canopies_.size(); ++i) {
-      if (state_.height <= request_.ground)
-        throw Error(ExitCode::usage,
-                    fmt::format("the rocket is on the ground before the {} opens; use a shorter delay or a "
-                                "higher apogee",
-                                canopies_[i].name));
-      fly_stage(i);
-    }
-    return std::move(flown_);
-  }
-
- private:
-  void fly_stage(std::size_t i) {
-    const RecoveryCanopy& canopy = canopies_[i];
-    FlownStage stage{state_,
-                     load_of(canopy, opening_of(canopy, drag_at(end_, canopy), state_, mass_, request_))};
-    ++open_;
-    const StageLoads& opening = stage.load.stages.front();
-    stage.others = body_area_ + (request_.drogue_released ? 0 : before_);
-    stage.end_height = request_.ground + (i + 1 < canopies_.size() ? request_.main_height : 0.0);
-    const StageLegs legs = legs_of(stage.load, stage.others, stage.end_height);
-    const double begin = state_.time, drift = drift_;
-    std::size_t first = flown_.rows.size();
-    append(legs.filling);
-    stage.filled = state_.time - begin >= opening.filling_time;
-    if (replaces_filling(stage.load)) first = flown_.rows.size();
-    if (state_.height > stage.end_height) append(legs.open);
-    for (std::size_t k = first; k < flown_.rows.size(); ++k)
-      stage.peak_force = std::max(stage.peak_force, force_on_canopy(flown_.rows[k].flight, stage.others));
-    before_ = opening.drag_area;
-    stage.duration = state_.time - begin, stage.end_speed = state_.speed, stage.drift = drift_ - drift;
-    stage.terminal =
-        terminal_speed(mass_, stage.others + opening.drag_area, standard_air(state_.height).density);
-    stage.steady = std::abs(stage.end_speed / stage.terminal - 1) <= steady_share &&
-                   stage.duration >= steady_fillings * opening.filling_time;
-    flown_.stages.push_back(std::move(stage));
-  }
-
-  /// Adds the rows of a leg, without repeating the state in which it begins, and the drift meanwhile.
-  void append(const Leg& leg) {
-    const std::vector<FlightRow> rows = fly(state_, mass_, leg);
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      if (k > 0) {
-        const FlightState &a = rows[k - 1].state, &b = rows[k].state;
-        const Vec3 air =
-            wind_velocity(wind_, 0.5 * (a.height + b.height) - request_.ground, 0.5 * (a.time + b.time));
-        const double towards = wind_.direction_deg * std::numbers::pi / 180;
-        drift_ += (air.x * std::cos(towards) + air.y * std::sin(towards)) * (b.time - a.time);
-      }
-      if (k > 0 || flown_.rows.empty()) flown_.rows.push_back({rows[k], drift_, open_});
-    }
-  }
-
-  const std::vector<RecoveryCanopy>& canopies_;
-  const RecoveryRequest& request_;
-  const Wind& wind_;
-  double body_area_;
-  DragEnd end_;
-  double mass_ = 0;                // of all [kg]
-  int open_ = 0;                   // parachutes
-  double before_ = 0, drift_ = 0;  // drag area of the parachute before [m2], with the wind [m]
-  FlightState state_;
-  Flown flown_;
-};
 
 template <class Of3>
 Ranged ranged(const std::vector<Flown>& flights, Of3&& of) {
@@ -333,7 +148,8 @@ void add_separation(const Settings& resolved, double separation, Margins& margin
   const Margins separated = load_margins(resolved, separation);
   for (std::size_t i = 0; i < margins.members.size(); ++i)
     if (Margin& m = margins.members[i]; resolved.hardware().contains(m.member) && m.load < separation)
-      m = separated.members.at(i);
+      m = *std::find_if(separated.members.begin(), separated.members.end(),
+                        [&](const Margin& each) { return each.member == m.member; });
   take_weakest(margins);
 }
 
@@ -358,18 +174,29 @@ RecoveryStage stage_of(const RecoveryCanopy& canopy, std::size_t i, const std::v
     s.design_load = flown.peak_force, s.design_load_from = "largest force of the trajectory";
   const EndOpening low = opening_at(DragEnd::low, canopy, i, flights, request),
                    high = opening_at(DragEnd::high, canopy, i, flights, request);
+  const std::array<const EndOpening*, 2> ends = {&low, &high};
   // A canopy that opens slower than it descends accelerates while it fills: its load can be largest at the lowest speed.
   s.lowest_design_load = std::min({s.design_load, (1 - low.uncertainty.value) * low.design_load(),
                                    (1 - high.uncertainty.value) * high.design_load()});
   s.highest_design_load = std::max({s.design_load, (1 + low.uncertainty.value) * low.design_load(),
                                     (1 + high.uncertainty.value) * high.design_load()});
   s.load_uncertainty = high.uncertainty.value, s.load_uncertainty_from = high.uncertainty.from;
+  s.of_trajectory = std::all_of(ends.begin(), ends.end(), [&](const EndOpening* end) {
+    return (1 + end->uncertainty.value) * end->load.design_load < s.highest_design_load;
+  });
+  if (s.of_trajectory) {
+    s.load_uncertainty = s.highest_design_load / s.design_load - 1;
+    s.load_uncertainty_from = fmt::format(
+        "largest force of the trajectories with the range of C_D in descent, scatter of repeated "
+        "openings {:.0f} %",
+        100 * opening_scatter);
+  }
   const auto snatch = snatch_of(canopy.resolved, high.asked, high.load);
   if (snatch) s.snatch_load = snatch->largest();
   if (request.separation_speed)
     s.separation_load = separation_load(canopy.resolved, request.sections, *request.separation_speed);
   const double largest_snatch = s.snatch_load.value_or(0);
-  s.margins = load_margins(canopy.resolved, s.highest_design_load, largest_snatch);
+  s.margins = load_margins(canopy.resolved, s.highest_design_load, largest_snatch, high.load.shares);
   if (s.separation_load) add_separation(canopy.resolved, *s.separation_load, *s.margins);
   s.hardware = hardware_need(std::max({s.highest_design_load, largest_snatch, s.separation_load.value_or(0)}),
                              canopy.resolved.margins());
@@ -424,6 +251,34 @@ RecoveryCanopy canopy_of(const char* name, const Settings& resolved, const std::
           std::move(inputs)};
 }
 
+/// A canopy that accelerates after its opening has its largest load later. A measured load of less is not used. Returns
+/// the warnings.
+std::vector<std::string> omit_small_measurements(const Flown& flown, std::vector<RecoveryCanopy>& canopies) {
+  std::vector<std::string> warnings;
+  for (std::size_t i = 0; i < canopies.size(); ++i) {
+    std::optional<double>& load = canopies[i].measured_load;
+    if (!load || *load >= flown.stages[i].peak_force) continue;
+    const auto [measured, largest] = rounded_apart(*load, flown.stages[i].peak_force);
+    warnings.push_back(fmt::format(
+        "{}: the measured load of {} N is below the largest force of the trajectory, {} N after the opening: "
+        "the loads are computed without it; check unit, speed and mass of the measurement",
+        canopies[i].name, measured, largest));
+    load.reset();
+  }
+  return warnings;
+}
+
+/// Of a fall without parachute and body drag that is fast.
+std::vector<std::string> fall_warnings(const std::string& name, double body_area, const Flown& flown,
+                                       const RecoveryRequest& request) {
+  const double speed = flown.stages.front().opening.speed;
+  if (body_area > 0 || !(request.delay > 0) || speed <= fast_fall) return {};
+  return {fmt::format(
+      "{}: it opens at {} m/s after {:g} s of free fall without the drag of the rocket: speed and loads are "
+      "upper bounds; give the drag area of the body with --body-area M2 (payload.drag_area_m2)",
+      name, rounded(speed), request.delay)};
+}
+
 }  // namespace
 
 RecoveryResult run_recovery(const Settings& main, const std::optional<Settings>& drogue,
@@ -439,10 +294,16 @@ RecoveryResult run_recovery(const Settings& main, const std::optional<Settings>&
       canopy_of("main", main, request.main_steady, request.main_opening, request.main_measured_load));
   const Wind& wind = main.flight().wind;
   const double body = request.body_drag_area.value_or(main.payload().drag_area_m2);
-  std::vector<Flown> flights;
-  for (const DragEnd end : {DragEnd::nominal, DragEnd::low, DragEnd::high})
-    flights.push_back(RecoveryFlight(canopies, request, wind, body, end).fly_down());
+  const auto fly = [&] {
+    std::vector<Flown> flights;
+    for (const DragEnd end : {DragEnd::nominal, DragEnd::low, DragEnd::high})
+      flights.push_back(fly_down(canopies, request, wind, body, end));
+    return flights;
+  };
   RecoveryResult r;
+  std::vector<Flown> flights = fly();
+  r.warnings = omit_small_measurements(flights[0], canopies);
+  if (!r.warnings.empty()) flights = fly();
   for (const RecoveryCanopy& canopy : canopies)
     r.warnings.insert(r.warnings.end(), canopy.inputs.warnings.begin(), canopy.inputs.warnings.end());
   r.title = main.title(), r.mass = r.total_mass = request.mass;
@@ -477,6 +338,8 @@ RecoveryResult run_recovery(const Settings& main, const std::optional<Settings>&
   // While a canopy opens, its drag area exceeds that of the open canopy; a landing is not planned with it.
   r.landing_speed = ranged(
       flights, [](const Flown& f) { return std::max(f.stages.back().end_speed, f.stages.back().terminal); });
+  for (std::string& text : fall_warnings(canopies.front().name, body, flights[0], request))
+    r.warnings.push_back(std::move(text));
   for (std::string& text : landing_warnings(canopies.back().name, flights))
     r.warnings.push_back(std::move(text));
   if (canopies.size() == 2)

@@ -62,7 +62,8 @@ struct RecoveryStage {
       highest_finite_mass_load;                            // without the infinite-mass load [N]
   double design_load = 0;                                  // [N]
   double lowest_design_load = 0, highest_design_load = 0;  // with the ranges of drag, speed and scatter [N]
-  double load_uncertainty = 0;                             // of its upper end at one speed, relative
+  double load_uncertainty = 0;  // of its upper end, relative: at one speed, or `of_trajectory`
+  bool of_trajectory = false;   // the upper end is the largest force of a trajectory; not in result.json
   std::string load_uncertainty_from;
   std::string design_load_from;
   std::optional<double> snatch_load;      // by [deployment] of the case, at the highest speed [N]
@@ -187,7 +188,7 @@ std::string to_json(const RecoveryResult& result);
 /// highest speed plus the uncertainty: the range of the coefficient and the scatter of openings, as independent parts;
 /// the lower end likewise. The fastest safe deployment has the same uncertainty. A measured load or a computed opening
 /// replaces the handbook as in run_load(); a measured load is scaled to the speeds of the range with their squares, and
-/// has no fastest safe deployment. The canopies follow the wind at once.
+/// has no fastest safe deployment; one below the largest force of the trajectory is not used. The canopies follow the wind at once.
 /// Wind: [flight.wind] of the main's case. Throws Error(usage) as run_load(), and for a main that opens above the apogee.
 RecoveryResult run_recovery(const Settings& main, const std::optional<Settings>& drogue,
                             const RecoveryRequest& request);

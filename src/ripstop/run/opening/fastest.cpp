@@ -130,7 +130,9 @@ SafeSpeed safe_speed(const Settings& resolved, const LoadsAtSpeed& loads, const 
                   : peak_of(loads.at(speed), method);
   };
   const auto least = [&](double load, double speed) {
-    return *weakest(load_margins(resolved, load, loads.snatch_load(speed)));
+    const bool of_opening = design || method == computed_method;
+    return *weakest(load_margins(resolved, load, loads.snatch_load(speed),
+                                 of_opening ? loads.at(speed).shares : MemberShares{}));
   };
   const auto speed_with = [&](double factor) {
     return largest_speed(slowest, [&](double speed) {
@@ -158,6 +160,15 @@ std::string printed(const std::optional<double>& speed) {
   return speed ? fmt::format("{:.1f} m/s", *speed) : fmt::format("more than {:g} m/s", fastest_deployment);
 }
 
+/// Name of the slowest speed of the search.
+std::string slowest_text(const FastestResult& r) {
+  if (*r.design().unsafe_at <= slowest_deployment) return "of the search";
+  return fmt::format(
+      "at which the canopy decelerates the payload on a path {:.3g} deg below the horizon, {} m above sea "
+      "level. For another path or height give --angle (0 for a level path, as at apogee) or --height",
+      r.path_angle, rounded(r.height));
+}
+
 /// Which speed to use. Infinite mass and the finite-mass methods may differ by a factor of three and more, as a large
 /// canopy slows a light payload down during a long filling.
 std::string advice_of(const FastestResult& r, double filling_distance) {
@@ -168,8 +179,8 @@ std::string advice_of(const FastestResult& r, double filling_distance) {
         "use a stronger or longer part, or reduce the speed difference",
         rounded(r.snatch->largest()), design.member, r.margin);
   if (design.unsafe_at)
-    return fmt::format("no speed: the {} does not keep its margin even at the rate of descent",
-                       design.member);
+    return fmt::format("no speed: the {} does not keep its margin even at {} m/s, the slowest speed {}",
+                       design.member, rounded(*design.unsafe_at, 3), slowest_text(r));
   if (r.design_method == computed_method)
     return fmt::format(
         "{}, the safe speed of the computed opening. It is valid for the deployment of that run",
@@ -248,6 +259,7 @@ FastestResult run_fastest(const Settings& resolved, const LoadRequest& request, 
   r.snatch = loads.snatch(r.design().unsafe_at ? slowest : r.design().lowest.value_or(fastest_deployment));
   if (r.snatch && r.snatch->other_load) r.warnings.push_back(two_snatch_loads(*r.snatch));
   r.design_load_caution = fast.design_load_caution;
+  r.cloth_checked = fast.shares.cloth > 0;
   r.advice = advice_of(r, fast.filling_constant);
   if (!r.design_load_caution.empty()) r.warnings.push_back(r.design_load_caution);
   for (std::string& text : strain_warnings(resolved, 0)) r.warnings.push_back(std::move(text));

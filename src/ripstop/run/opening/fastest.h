@@ -51,6 +51,7 @@ struct FastestResult {
   std::string load_uncertainty_from;
   std::string design_method;        // of `methods`: whose lowest speed is the answer
   std::string design_load_caution;  // of the load; empty: none
+  bool cloth_checked = false;       // under its load in a computed opening; not in result.json
   std::string advice;               // which speed to use, and why the methods differ
   std::vector<SafeSpeed> methods;
   std::optional<SnatchResult> snatch;  // at the speed of the advice; absent: no speed difference is given

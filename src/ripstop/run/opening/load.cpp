@@ -277,7 +277,7 @@ void fly_record(const OpeningRecord& record, const LoadRequest& request, LoadRes
   r.record_peak_load = peak.force;
   if (!request.reefing.empty()) return;
   StageLoads& stage = r.stages.front();
-  r.record_limit = record.limit;
+  r.record_limit = record.limit, r.shares = record.shares;
   const std::string from = "C_D S of " + request.opening.string() + " over the distance through the air";
   if (!record.limit.empty()) {
     stage.methods.push_back(
@@ -323,15 +323,18 @@ void choose_design_load(const Settings& resolved, const LoadRequest& request, co
       if (m.applies && m.load > r.design_load)
         r.design_load = m.load, r.design_method = m.method,
         r.design_load_from = m.method + ", more than infinite mass";
+  const bool recorded = r.record_peak_load && request.reefing.empty();
+  const bool usable = recorded && r.record_limit.empty();
   if (request.measured_load) {
     r.design_load = *request.measured_load, r.design_load_from = "measured, as given";
     r.design_method.clear();
-  } else if (r.record_peak_load && request.reefing.empty() &&
-             (r.record_limit.empty() || *r.record_peak_load > r.design_load)) {
+  } else if (usable || (recorded && *r.record_peak_load > r.design_load)) {
     r.design_load = *r.record_peak_load, r.design_load_from = "computed opening " + request.opening.string();
     r.design_method = computed_method;
   }
-  r.line_load_factor = experience(resolved.parachute()).line_load_factor;
+  if (r.design_method != computed_method && !(request.measured_load && usable)) r.shares = {};
+  r.line_load_factor = std::max(experience(resolved.parachute()).line_load_factor,
+                                r.shares.line * resolved.parachute().lines.count);
   LoadUncertainty uncertainty =
       request.measured_load ? LoadUncertainty{opening_scatter, scatter_text()} : load_uncertainty(drag);
   r.load_uncertainty = uncertainty.value, r.load_uncertainty_from = std::move(uncertainty.from);
@@ -353,9 +356,9 @@ void choose_design_load(const Settings& resolved, const LoadRequest& request, co
 void take_required_load(const Settings& resolved, LoadResult& r) {
   const double largest_snatch = r.snatch ? r.snatch->largest() : 0;
   r.required_load = std::max(r.highest_design_load, largest_snatch);
-  r.margins = load_margins(resolved, r.design_load, largest_snatch);
+  r.margins = load_margins(resolved, r.design_load, largest_snatch, r.shares);
   r.hardware = hardware_need(r.required_load, resolved.margins());
-  r.highest_margins = load_margins(resolved, r.highest_design_load, largest_snatch);
+  r.highest_margins = load_margins(resolved, r.highest_design_load, largest_snatch, r.shares);
   if (const Margin* least = weakest(*r.highest_margins))
     r.smallest_margin = least->margin, r.smallest_margin_member = least->member;
   for (const std::string& text : margin_warnings(r.highest_margins))

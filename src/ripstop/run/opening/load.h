@@ -120,7 +120,9 @@ struct LoadResult {
   HardwareNeed hardware;                  // under it
   std::optional<double> smallest_margin;  // of safety, of the weakest member under the highest design load
   std::string smallest_margin_member;
-  double line_load_factor = 1;  // largest line load over an equal share, of the family
+  double line_load_factor =
+      1;                // largest line load over an equal share, of the family or the computed opening
+  MemberShares shares;  // of a computed opening that is the design; not in result.json
   // Of tape or hem under the design load; of the others under this or a larger snatch load.
   std::optional<Margins> margins;
   std::optional<Margins> highest_margins;  // the same with the highest design load

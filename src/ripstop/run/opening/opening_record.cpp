@@ -86,6 +86,23 @@ std::string limit_of(const Settings& run, const nlohmann::json& result) {
              : "the run does not contain the filling of a folded canopy, hence it may lack the peak";
 }
 
+/// Of the members in the margins of an opening, over its `load` [N].
+MemberShares shares_of(const nlohmann::json& result, double load) {
+  MemberShares shares;
+  const auto margins = result.find("margins");
+  if (!(load > 0) || margins == result.end() || !margins->is_object()) return shares;
+  for (const nlohmann::json& m : margins->at("members")) {
+    const std::string member = m.at("member");
+    double* share = member == "cloth"             ? &shares.cloth
+                    : member == "tape"            ? &shares.tape
+                    : member == "riser"           ? &shares.riser
+                    : member.starts_with("line ") ? &shares.line
+                                                  : nullptr;
+    if (share) *share = std::max(*share, m.at("load").get<double>() / load);
+  }
+  return shares;
+}
+
 }  // namespace
 
 OpeningRecord opening_record(const fs::path& folder, const Settings& resolved) {
@@ -99,6 +116,8 @@ OpeningRecord opening_record(const fs::path& folder, const Settings& resolved) {
   OpeningRecord record;
   record.limit = limit_of(run, result);
   const fs::path smooth = folder / "history_low_pass.csv";
+  const bool low_passed = fs::exists(smooth) && result.contains("low_pass_peak_load_n");
+  record.shares = shares_of(result, result.at(low_passed ? "low_pass_peak_load_n" : "peak_load_n"));
   const CsvTable table = read_csv(fs::exists(smooth) ? smooth : folder / "history.csv");
   const std::vector<double> time = table.column("time_s");
   const std::vector<double> load = table.column(fs::exists(smooth) ? "load_n" : "load_mean_n");

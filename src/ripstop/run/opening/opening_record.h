@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ripstop/case/settings.h"
+#include "ripstop/run/margins.h"
 
 namespace ripstop::inline run {
 
@@ -14,6 +15,7 @@ namespace ripstop::inline run {
 struct OpeningRecord {
   std::vector<double> distance, drag_area;  // rising [m], [m2]
   double steady_drag_area = 0;              // of its end [m2]
+  MemberShares shares;                      // of its load
   std::string limit;  // why its load does not replace a larger one in a design; empty: it may
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "ripstop/case/tape.h"
+#include "ripstop/core/error.h"
 #include "ripstop/core/words.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/margins.h"
@@ -33,6 +34,19 @@ LoadUncertainty uncertainty_of(const Settings& resolved) {
                                 : DragCoefficient{0, "assumed", usual_drag_uncertainty, ""});
 }
 
+/// As in ripstop load, on a level path, where every speed has a load.
+std::string heavy_payload_caution(const Settings& resolved, double speed) {
+  if (!resolved.payload().mass_kg) return {};
+  LoadRequest request;
+  request.payload_mass = *resolved.payload().mass_kg, request.speed = speed;
+  request.path_angle = 0, request.descent = false;
+  try {
+    return run_load(resolved, request).design_load_caution;
+  } catch (const Error&) {  // ripstop load has no load of this case either
+    return {};
+  }
+}
+
 }  // namespace
 
 CheckResult run_check(const Settings& resolved) {
@@ -46,6 +60,9 @@ CheckResult run_check(const Settings& resolved) {
         fmt::format("in an opening at {} m/s ({}), with the infinite-mass load of {} N, which contains the "
                     "uncertainty of {:.0f} %: {}; for another speed use ripstop load --speed",
                     rounded(opening.speed, 3), opening.from, rounded(load), 100 * uncertainty.value, text));
+  if (const std::string caution = heavy_payload_caution(resolved, opening.speed); !caution.empty())
+    warnings.push_back(
+        fmt::format("in an opening at {} m/s ({}): {}", rounded(opening.speed, 3), opening.from, caution));
   return {summarize(resolved), resolved.sources(), std::move(warnings), resolved};
 }
 

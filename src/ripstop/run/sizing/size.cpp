@@ -152,6 +152,7 @@ void find_opening(const SizeRequest& request, SizeResult& r) {
     r.lowest_finite_mass_load = range->lowest, r.highest_finite_mass_load = range->highest;
   r.air_source = std::move(load.air_source);
   r.design_load = load.design_load, r.design_load_from = std::move(load.design_load_from);
+  r.design_load_caution = std::move(load.design_load_caution);
   r.load_uncertainty = load.load_uncertainty;
   r.load_uncertainty_from = load_uncertainty({r.drag_coefficient, r.drag_basis + " coefficient",
                                               load.drag_uncertainty, r.drag_basis})

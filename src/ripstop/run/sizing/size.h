@@ -108,7 +108,8 @@ struct SizeResult {
       highest_finite_mass_load;  // without the infinite-mass load [N]
   double design_load = 0;        // as of run_load() [N]
   std::string design_load_from;
-  double load_uncertainty = 0;  // of it, relative
+  std::string design_load_caution;  // as of run_load(); not in result.json
+  double load_uncertainty = 0;      // of it, relative
   std::string load_uncertainty_from;
   double highest_design_load = 0;         // lines, riser, and tape or hem are chosen for it [N]
   std::optional<double> smallest_margin;  // of safety, of the weakest member under the highest design load
