@@ -43,18 +43,18 @@ TEST(CheckMargins, AreThoseAtTheDeploymentSpeedOfThePayload) {
 TEST(CheckMargins, AHeavyPayloadIsWarnedOfAsInTheLoadCommand) {
   Case given = read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/flat-circular/case.toml");
   given.payload.deployment_speed_m_s = 20;
-  for (const double mass : {2.0, 60.0}) {
+  for (const double mass : {0.2, 60.0}) {
     given.payload.mass_kg = mass;
     LoadRequest asked;
     asked.payload_mass = mass, asked.speed = 20, asked.path_angle = 0;
     const std::string caution = run_load(resolve(given), asked).design_load_caution;
-    EXPECT_EQ(caution.empty(), mass == 2) << caution;
+    EXPECT_EQ(caution.empty(), mass < 1) << caution;
     const std::vector<std::string> warnings = run_check(resolve(given)).warnings;
     EXPECT_EQ(std::any_of(warnings.begin(), warnings.end(),
                           [](const std::string& text) {
                             return text.find("the payload is heavy for this canopy") != text.npos;
                           }),
-              mass != 2);
+              mass > 1);
   }
 }
 
