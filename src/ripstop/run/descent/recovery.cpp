@@ -19,6 +19,7 @@
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/validity.h"
 #include "ripstop/flight/wind.h"
+#include "ripstop/fsi/opening_estimate.h"
 #include "ripstop/run/descent/recovery_flight.h"
 #include "ripstop/run/opening/handbook.h"
 #include "ripstop/run/opening/snatch.h"

@@ -10,6 +10,7 @@
 #include "ripstop/flight/wind.h"
 #include "ripstop/run/descent/flown.h"
 #include "ripstop/run/descent/recovery.h"
+#include "ripstop/run/opening/filling.h"
 #include "ripstop/run/opening/load.h"
 
 namespace ripstop::inline run {
