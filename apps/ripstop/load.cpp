@@ -59,8 +59,7 @@ void print_stage(const StageLoads& s, const StageLoads* before, const LoadResult
   const double share = s.filling_time * s.speed / (s.filling_constant * r.nominal_diameter);
   print_text(
       "\nstage from {:.2f} s: {:.3g} m/s on a path {:.3g} deg below the horizon, {:.4g} m above sea level, "
-      "{:.4g} "
-      "kg/m3, drag area {:.3g} to {:.3g} m2{}\n"
+      "{:.4g} kg/m3, drag area {:.3g} to {:.3g} m2{}\n"
       "  filling time {:.3g} s = {:.3g} D0 / speed{}{}, ballistic parameter {:.3g}, mass ratio R_m {:.3g}\n",
       s.begin, s.speed, s.path_angle, s.height, s.density, s.drag_area_before, s.drag_area,
       before && s.drag_area_before > 1.0005 * before->drag_area
@@ -180,8 +179,7 @@ void print_result(const LoadResult& r, const fs::path& folder, const std::option
     print_text(
         "  The speed of a later stage is that of the trajectory: the design load requires that the reefed "
         "stages decelerate the payload as computed. Without reefing the infinite-mass load at line stretch "
-        "is "
-        "{:.1f} N.\n",
+        "is {:.1f} N.\n",
         r.opening_coefficient * r.design_drag_coefficient * r.reference_area * 0.5 * r.density * r.speed *
             r.speed);
   else if (r.design_method == infinite_mass_method)

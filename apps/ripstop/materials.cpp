@@ -89,8 +89,7 @@ void print_list(const MaterialList& list, const std::string& wanted) {
   }
   fmt::print(
       "strength: breaking load of new material, without the factors of [margins]; ripstop materials NAME "
-      "prints "
-      "one material with its load curve\n");
+      "prints one material with its load curve\n");
 }
 
 void print_curve(const MaterialEntry& m) {

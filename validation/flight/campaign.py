@@ -261,6 +261,19 @@ def study_table(section, head, flights, results):
                          "mean oscillation deg", "half-swings"], merged(section, rows))
 
 
+def parsed(cell):
+    """Value and standard error of a cell "0.742 +- 0.013"; no error: None."""
+    value, _, error = cell.partition(" +- ")
+    return float(value), float(error) if error else None
+
+
+def plot_vents():
+    """From the rows of the page, whose flights may be of different days."""
+    rows = sorted((float(row[0]), row) for row in earlier_rows("Vent"))
+    columns = [[(share, *parsed(row[column])) for share, row in rows if row[column]] for column in (3, 4, 6)]
+    vent_plot.write(ROOT / "docs/tables/spill-hole.svg", *columns)
+
+
 def write_tables(options):
     results = results_of(options)
     if not results:
@@ -280,9 +293,7 @@ def write_tables(options):
              "## Cells and time step", "", *study_table("Cells and time step", "flight", GRIDS.items(), results)]
     made = [json.loads((folder_of(options, name) / "run.json").read_text()) for name in results]
     tables.write("flights", "Free flights", "make validate-flights", made, lines)
-    vents = [(share, results[name]) for share, name in VENTS.items() if name in results]
-    if len(vents) > 1:
-        vent_plot.write(ROOT / "docs/tables/spill-hole.svg", vents)
+    plot_vents()
     print("\n".join(lines))
 
 

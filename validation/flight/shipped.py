@@ -17,26 +17,20 @@ CLOTHS = {"100": "mil-c-7020-type-i", "3": "f-111-physical"}
 LEAST_HALF_SWINGS = 4
 
 
-def number(cell):
-    """Value and standard error of a cell "0.742 +- 0.013"."""
-    value, _, error = cell.partition(" +- ")
-    return float(value), float(error) if error else 0.0
-
-
 def rows():
     for cells in campaign.earlier_rows("Families"):
         row = dict(zip(campaign.FAMILIES_HEAD, cells))
         if not row["C_D0 in descent"] or int(row["half-swings"]) < LEAST_HALF_SWINGS:
             continue
-        value, error = number(row["C_D0 in descent"])
+        value, error = campaign.parsed(row["C_D0 in descent"])
         yield {
             "family": row["family"],
             "type": tomllib.loads((ROOT / f"validation/flight/{row['family']}.toml").read_text())["parachute"]["type"],
             "canopy_material": CLOTHS[row["cloth CFM"]],
             "drag_coefficient": value,
-            "standard_error": error,
+            "standard_error": error or 0.0,
             "axial_drag_coefficient": float(row["C_D0 on the axis"]),
-            "mean_oscillation_deg": number(row["mean oscillation deg"])[0],
+            "mean_oscillation_deg": campaign.parsed(row["mean oscillation deg"])[0],
             "half_swings": int(row["half-swings"]),
             "duration_s": float(row["flight s"]),
         }

@@ -44,18 +44,11 @@ def series(left, scale, points, colour):
     return drawn
 
 
-def of(results, key, error=None):
-    return [(share, r[key], r[error] if error else None) for share, r in results if r[key] is not None]
-
-
-def write(path, results):
-    """`results`: pairs of vent diameter in % of the nominal diameter and result.json of the flight."""
-    results = sorted(results, key=lambda pair: pair[0])
+def write(path, axial, flown, angles):
+    """Points (vent diameter in % of the nominal diameter, value, standard error or None) of each series."""
     left, right = 60, 60 + WIDTH + 90
     drawn = [*axes(left, COEFFICIENTS, 0.2, "drag coefficient on the nominal area"), *axes(right, ANGLES, 10, "mean oscillation, degrees"),
-             *series(left, COEFFICIENTS, of(results, "axial_drag_coefficient"), AXIAL),
-             *series(left, COEFFICIENTS, of(results, "descent_drag_coefficient", "descent_drag_coefficient_standard_error"), FLOWN),
-             *series(right, ANGLES, of(results, "mean_oscillation_deg", "mean_oscillation_standard_error_deg"), FLOWN)]
+             *series(left, COEFFICIENTS, axial, AXIAL), *series(left, COEFFICIENTS, flown, FLOWN), *series(right, ANGLES, angles, FLOWN)]
     for x, colour, words in ((left, AXIAL, "on the axis"), (left + 130, FLOWN, "in descent")):
         drawn += [f'<circle cx="{x + 6}" cy="{SIZE[1] - 16}" r="4" fill="{colour}"/>', text(x + 18, SIZE[1] - 12, words, "start")]
     drawn.append(text(SIZE[0] / 2, 24, "Flat circular canopy of 1.76 m with 2.4 kg: size of the vent"))

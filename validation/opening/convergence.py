@@ -5,10 +5,7 @@
 
 Writes docs/tables/convergence.md. The openings of a row differ in a perturbation of the folds. Finished openings are not computed again.
 """
-import json
 import math
-import pathlib
-import subprocess
 import sys
 
 import openings
@@ -31,14 +28,7 @@ def keys_of(row):
 
 def compute(options, row):
     """Result of the samples of a row."""
-    folder = options.runs.resolve() / row
-    command = [str(options.ripstop.resolve()), "inflate", CASE, "--air", "coupled", "--samples", str(SAMPLES), "--out", str(folder),
-               "--threads", str(options.threads), *openings.keys_of(keys_of(row))]
-    print("$ ripstop " + " ".join(command[1:]), flush=True)
-    code = subprocess.run(command, cwd=openings.ROOT, check=False, stdout=subprocess.DEVNULL).returncode
-    if code not in (0, openings.UNUSABLE):
-        raise openings.Failed(f"{row}: exit code {code}")
-    return json.loads((folder / "result.json").read_text())
+    return openings.run(options, CASE, keys_of(row), options.runs.resolve() / row, "--samples", str(SAMPLES))
 
 
 HEAD = ["cloth nodes", "cells", "openings", "mean peak N", "standard deviation N", "lowest to highest N", "change of the mean %", "standard error of the change %"]
@@ -56,7 +46,10 @@ def row_of(row, result, base):
 def main():
     parser = openings.arguments(__doc__, "convergence", ROWS)
     options = parser.parse_args()
-    done = {row: compute(options, row) for row in options.rows.split(",")}
+    try:
+        done = {row: compute(options, row) for row in options.rows.split(",")}
+    except openings.Failed as failed:
+        sys.exit(f"{failed}; the same command again continues")
     if "base" not in done:
         sys.exit("the row base is missing: no table is written")
     lines = [

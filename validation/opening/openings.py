@@ -29,10 +29,10 @@ def keys_of(keys):
     return [option for key, value in keys.items() for option in ("--set", f"{key}={value}")]
 
 
-def run(options, case, keys, folder):
-    """Result of one opening, which runs or continues. Throws Failed."""
+def run(options, case, keys, folder, *more):
+    """Result of one opening, or with "--samples", "N" of N of them, which run or continue. Throws Failed."""
     command = [str(options.ripstop.resolve()), "inflate", case, "--air", "coupled", "--out", str(folder),
-               "--threads", str(options.threads), *keys_of(keys)]
+               "--threads", str(options.threads), *more, *keys_of(keys)]
     print("$ ripstop " + " ".join(command[1:]), flush=True)
     done = subprocess.run(command, cwd=ROOT, check=False, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     print(done.stderr, end="", file=sys.stderr, flush=True)

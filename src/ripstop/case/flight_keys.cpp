@@ -12,12 +12,10 @@ void describe(Fields& fields, PayloadKeys& payload) {
               "speed at which the drag equals the weight of both.")
       .absent("the speed is given");
   fields
-      .number(
-          "deployment_speed_m_s", payload.deployment_speed_m_s, above(0).up_to(1000),
-          "Airspeed at line stretch. `ripstop load`, `inflate` and `fly --deploy` without `--speed`, the "
-          "margins "
-          "of `ripstop check`, the choice of a default tape and the filling time of `ripstop export` are for "
-          "this speed.")
+      .number("deployment_speed_m_s", payload.deployment_speed_m_s, above(0).up_to(1000),
+              "Airspeed at line stretch. `ripstop load`, `inflate` and `fly --deploy` without `--speed`, the "
+              "margins of `ripstop check`, the choice of a default tape and the filling time of `ripstop "
+              "export` are for this speed.")
       .absent(
           "with mass_kg the larger of 20 m/s and three times the rate of descent, without it flow.speed_m_s; "
           "`ripstop load` then needs --speed, and an opening starts at flow.speed_m_s");

@@ -7,7 +7,6 @@
 #include "ripstop/flight/deployment.h"
 
 namespace ripstop::inline fsi {
-
 namespace {
 
 constexpr double lightest = 1e-9;  // a container without mass that is almost empty [kg]

@@ -32,9 +32,9 @@ void each_member(T& m, Visit&& visit) {
   visit("left", m.left);
 }
 
-/// Over one step of `length` [s] in which the cloth in it has the mean speed `cloth_speed` [m/s] and air of `density`
-/// [kg/m3] and gravity along the path [m/s2] act. Returns the mean force between container and cloth [N], from 0 to the strip
-/// force: it acts while the cloth between them is taut, and keeps them at one speed if it can.
+/// Over one step of `length` [s], with the mean speed `cloth_speed` [m/s] of the cloth inside, in air of `density`
+/// [kg/m3] and under gravity along the path [m/s2]. Returns the mean force between container and cloth [N], from 0 to
+/// the strip force: it acts while the cloth between them is taut, and keeps them at one speed if it can.
 double move_container(ContainerMotion& motion, const Container& container, double cloth_speed, double length,
                       double density, double gravity);
 

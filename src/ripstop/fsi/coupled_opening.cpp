@@ -166,7 +166,7 @@ AirRow CoupledOpening::step(InflationState& state, int rows, std::vector<History
   row.momentum_gap = taken.flow.momentum_gap.z, row.mass_defect = taken.flow.mass_defect;
   row.residual_traction = taken.residual_traction, row.added_mass = state.air.added_mass;
 
-  // Move the payload under the pull of the riser, and under that of the container, which the cloth in it does not transmit.
+  // Move the payload under the pull of the riser and of the container, which the cloth in it does not transmit.
   double pull = mean_load(history, rows);
   if (!inside.empty()) pull += advance_container(inside, before, length, state);
   if (payload) move_payload(flight, *payload, pull, length, flow.air.density);

@@ -47,10 +47,8 @@ std::string axial_warning(const DescentDrag& range, const ExportedParachute& p) 
   return fmt::format(
       "{}: the drag area of {:.4g} m2 is axial; in descent its range is {:.4g} to {:.4g} m2, C_D {:.3f} to "
       "{:.3f} on S0 ({}), as for ripstop recovery. The nominal trajectory has the axial drag area, or that "
-      "of "
-      "a flight with --flight. The stochastic parachutes of rocketpy have the middle of the range, {:.4g} "
-      "m2, and "
-      "a standard deviation of a quarter of its width",
+      "of a flight with --flight. The stochastic parachutes of rocketpy have the middle of the range, {:.4g} "
+      "m2, and a standard deviation of a quarter of its width",
       p.title, p.drag_area, range.low * p.nominal_area, range.high * p.nominal_area, range.low, range.high,
       range.from, p.drag_area_mean);
 }

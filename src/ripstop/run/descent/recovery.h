@@ -188,8 +188,9 @@ std::string to_json(const RecoveryResult& result);
 /// highest speed plus the uncertainty: the range of the coefficient and the scatter of openings, as independent parts;
 /// the lower end likewise. The fastest safe deployment has the same uncertainty. A measured load or a computed opening
 /// replaces the handbook as in run_load(); a measured load is scaled to the speeds of the range with their squares, and
-/// has no fastest safe deployment; one below the largest force of the trajectory is not used. The canopies follow the wind at once.
-/// Wind: [flight.wind] of the main's case. Throws Error(usage) as run_load(), and for a main that opens above the apogee.
+/// has no fastest safe deployment; one below the largest force of the trajectory is not used. The canopies follow the
+/// wind at once. Wind: [flight.wind] of the main's case. Throws Error(usage) as run_load(), and for a main that opens
+/// above the apogee.
 RecoveryResult run_recovery(const Settings& main, const std::optional<Settings>& drogue,
                             const RecoveryRequest& request);
 

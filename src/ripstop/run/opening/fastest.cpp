@@ -203,14 +203,12 @@ std::string advice_of(const FastestResult& r, double filling_distance) {
     high = s.lowest && high ? std::optional(std::max(*high, *s.lowest)) : std::nullopt;
   }
   if (!others) return text;
-  return text +
-         fmt::format(
-             ". The other methods allow {} to {}. They assume that the canopy fills over {:.3g} D0. The "
-             "distance "
-             "depends on the deployment, and over a shorter one the load is higher. Use a speed above {} "
-             "only if a measured opening or a coupled inflation (--opening) of this deployment confirms that "
-             "distance",
-             printed(low), printed(high), filling_distance, printed(design.lowest));
+  return text + fmt::format(
+                    ". The other methods allow {} to {}. They assume that the canopy fills over {:.3g} D0. "
+                    "The distance depends on the deployment, and over a shorter one the load is higher. Use "
+                    "a speed above {} only if a measured opening or a coupled inflation (--opening) of this "
+                    "deployment confirms that distance",
+                    printed(low), printed(high), filling_distance, printed(design.lowest));
 }
 
 }  // namespace

@@ -85,8 +85,9 @@ std::string to_json(const FastestResult& result);
 /// openings (opening_scatter), as independent parts. Lines, riser and hardware also have to carry the snatch load at that
 /// speed (snatch_of()), which is taken without an uncertainty. The design method is a coupled opening that has filled,
 /// else infinite mass or a larger load of the computed opening. `known` replaces load_uncertainty() of the drag
-/// coefficient, and the canopy carries at least `least_load` [N], a function of the speed [m/s]. Throws Error(usage) as run_load(), for a margin
-/// below 0, and for a parachute in which no strength of lines, tape, riser and hardware is known.
+/// coefficient, and the canopy carries at least `least_load` [N], a function of the speed [m/s]. Throws Error(usage) as
+/// run_load(), for a margin below 0, and for a parachute in which no strength of lines, tape, riser and hardware is
+/// known.
 FastestResult run_fastest(const Settings& resolved, const LoadRequest& request, double margin = 0,
                           std::optional<LoadUncertainty> known = {},
                           const std::function<double(double)>& least_load = {});

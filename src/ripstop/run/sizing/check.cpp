@@ -42,7 +42,8 @@ std::string heavy_payload_caution(const Settings& resolved, double speed) {
   request.path_angle = 0, request.descent = false;
   try {
     return run_load(resolved, request).design_load_caution;
-  } catch (const Error&) {  // ripstop load has no load of this case either
+  } catch (const Error& error) {  // ripstop load refuses this case too
+    if (error.code() != ExitCode::usage) throw;
     return {};
   }
 }
