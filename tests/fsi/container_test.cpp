@@ -77,6 +77,9 @@ TEST(ContainerMotion, NoClothReturnsIntoItAndItIsFreeUntilTheClothIsTautAgain) {
   EXPECT_EQ(slack.farthest, first.farthest);
   EXPECT_LT(slack.apart, first.apart);
   EXPECT_EQ(slack.speed, first.speed);  // no drag area, and no force
+  const ContainerMotion behind = moved(slack, container, 0.01, [](double) { return 30.0; });
+  EXPECT_LT(behind.apart, first.farthest);
+  EXPECT_EQ(behind.speed, slack.speed);
   const ContainerMotion taut = moved(slack, container, 0.2, [](double) { return 30.0; });
   EXPECT_GT(taut.farthest, first.farthest);
   EXPECT_GT(taut.speed, slack.speed);
