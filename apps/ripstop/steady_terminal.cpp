@@ -45,6 +45,17 @@ std::string progress_text(const SteadyProgress& p, double elapsed, double left) 
                      p.flow.drag, time);
 }
 
+// Largest difference of a first estimate from the result of its run, docs/tables/first-estimates.md.
+constexpr double drag_within = 0.07, diameter_within = 0.02;
+
+std::string estimate_text(const FirstEstimate& estimate, double elapsed) {
+  return fmt::format(
+      "first estimate after {}: drag {:.3g} N at {:.4g} m/s (in the examples within {:.0f} % of the result), "
+      "projected diameter {:.3f} m (within {:.0f} %)",
+      duration_text(elapsed), estimate.drag, estimate.speed, 100 * drag_within, estimate.projected_diameter,
+      100 * diameter_within);
+}
+
 /// Headings of the shown members of an iteration, on two lines.
 std::string iteration_header() {
   std::string upper, lower;
@@ -76,6 +87,7 @@ std::string iteration_text(const SteadyIteration& iteration) {
 
 void SteadyTerminal::begin(const SteadyRun& run, SteadyState& state) {
   settings_ = run.resolved.coupling();
+  estimated_ = state.first_estimate.has_value();
   if (!state.iterations.empty()) {
     progress_.line(
         fmt::format("resuming after coupling iteration {} in {}", state.iterations.size(), folder_.string()));
@@ -99,6 +111,10 @@ void SteadyTerminal::warned(const std::string& text) {
 }
 
 void SteadyTerminal::progress(const SteadyProgress& p, const SteadyState& state) {
+  if (state.first_estimate && !estimated_ && !p.coarse) {
+    estimated_ = true;
+    progress_.line(estimate_text(*state.first_estimate, elapsed()));
+  }
   double left = 0;
   const double gone = elapsed() - before_, share = std::min(0.99, p.time.share);
   if (p.stage == SteadyStage::time) {

@@ -28,7 +28,8 @@ class SteadyTerminal : public SteadyObserver {
   CouplingSettings settings_;
   Progress progress_;
   Clock::time_point begin_ = Clock::now();
-  double before_ = 0;  // elapsed at the end of the last iteration [s]
+  double before_ = 0;       // elapsed at the end of the last iteration [s]
+  bool estimated_ = false;  // the first estimate has been shown
 };
 
 }  // namespace ripstop::cli

@@ -290,6 +290,7 @@ Trim.stable: whether dC_m/dalpha is negative
 # steady()
 Steady.speed_m_s: speed of the free stream
 Steady.coupling_iterations: number of coupling iterations
+Steady.first_estimate: early drag and shape of the run; None: none was made
 Steady.ledger: force balance
 Steady.flow_domain: part of the flow domain that was solved
 Steady.unsteady: means of the unsteady wake; None: steady flow
@@ -329,6 +330,9 @@ Measured.printed_linear_n: drag by the linear model of this source
 SolvedDomain.part: "full" or "quarter"
 SolvedDomain.reason: reason for the full domain; empty for a quarter
 SolvedDomain.canopy_asymmetry_m: largest deviation of the shape from mirror symmetry
+FirstEstimate.speed_m_s: speed of the free stream
+FirstEstimate.drag_n: drag after 30 flow iterations
+FirstEstimate.projected_diameter_m: projected diameter under a uniform pressure
 SteadyIteration.iteration: number of the iteration, from 1
 SteadyIteration.drag_change: change of the drag since the previous iteration, relative
 SteadyIteration.shape_change_m: mean displacement of the nodes since the previous iteration

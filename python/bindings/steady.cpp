@@ -23,13 +23,19 @@ struct WarmStart {
 /// Reports every iteration to Python, and keeps the values that the run of a folder does not return.
 class SteadyListener : public SteadyObserver {
  public:
-  SteadyListener(Listener& listener, PySteady& run, const std::optional<WarmStart>& start)
-      : listener_(listener), run_(run), start_(start) {}
+  SteadyListener(Listener& listener, Listener& estimate, PySteady& run, const std::optional<WarmStart>& start)
+      : listener_(listener), estimate_(estimate), run_(run), start_(start) {}
   void begin(const SteadyRun& run, SteadyState& state) override {
     run_.engine = run.engine;
+    estimated_ = state.first_estimate.has_value();
     if (start_) start_from(start_->settings, start_->end, run, state);
   }
-  void progress(const SteadyProgress&, const SteadyState&) override { listener_.listen(); }
+  void progress(const SteadyProgress& progress, const SteadyState& state) override {
+    listener_.listen();
+    if (!state.first_estimate || estimated_ || progress.coarse) return;
+    estimated_ = true;
+    estimate_.tell(*state.first_estimate);
+  }
   void iterated(const SteadyRun&, const SteadyState& state, const FlowField& flow) override {
     if (!run_.folder.empty()) run_.flow = flow;
     listener_.tell(state.iterations.back());
@@ -40,9 +46,10 @@ class SteadyListener : public SteadyObserver {
   }
 
  private:
-  Listener& listener_;
+  Listener &listener_, &estimate_;
   PySteady& run_;
   const std::optional<WarmStart>& start_;
+  bool estimated_ = false;  // reported
 };
 
 void compute(PySteady& run, SteadyListener& observer, int threads, bool fresh, const Path& warm_from) {
@@ -64,7 +71,8 @@ void compute(PySteady& run, SteadyListener& observer, int threads, bool fresh, c
 
 std::unique_ptr<PySteady> steady(const PyCase& given, Callback<SteadyIteration> progress, int threads,
                                  const std::optional<Path>& out, bool fresh,
-                                 const std::optional<SteadySource>& start, const OptionalMesh& mesh) {
+                                 const std::optional<SteadySource>& start, const OptionalMesh& mesh,
+                                 Callback<FirstEstimate> estimate) {
   auto run = std::make_unique<PySteady>();
   run->made = given;
   run->own_mesh = own_mesh(mesh, out.has_value());
@@ -82,8 +90,8 @@ std::unique_ptr<PySteady> steady(const PyCase& given, Callback<SteadyIteration> 
     else if (!out)
       warm = WarmStart{finished_steady(*folder).resolved, final_state(*folder)};
   }
-  Listener listener(std::move(progress));
-  SteadyListener observer(listener, *run, warm);
+  Listener listener(std::move(progress)), estimate_listener(std::move(estimate));
+  SteadyListener observer(listener, estimate_listener, *run, warm);
   const py::gil_scoped_release release;
   compute(*run, observer, threads, fresh, out ? warm_from : Path());
   return run;
@@ -184,6 +192,9 @@ void add_steady(py::module_& module) {
                          "One solution of the search for the spread angle of a cluster.");
   add_class<ClusterResult>(module, "ClusterResult", "Angles and loads of a cluster of canopies.");
   add_class<SteadyIteration>(module, "SteadyIteration", "Values of one coupling iteration.");
+  add_class<FirstEstimate>(
+      module, "FirstEstimate",
+      "Drag and shape early in the first coupling iteration, whose flow has not settled.");
   add_flow(module);
   py::class_<PySteady> type(module, "Steady",
                             "Result of a steady run: the values of result.json, and arrays.");
@@ -209,7 +220,7 @@ void add_steady(py::module_& module) {
       "Exceeded quality limits, negative margins and other warnings.");
   module.def("steady", &steady, py::arg("case"), py::kw_only(), py::arg("progress") = py::none(),
              py::arg("threads") = 0, py::arg("out") = py::none(), py::arg("fresh") = false,
-             py::arg("start") = py::none(), py::arg("mesh") = py::none(),
+             py::arg("start") = py::none(), py::arg("mesh") = py::none(), py::arg("estimate") = py::none(),
              "Computes inflated shape, drag and loads in a steady flow: ripstop steady.\n\n"
              "progress: called with a SteadyIteration after every coupling iteration; an exception in it "
              "stops the\n"
@@ -224,7 +235,10 @@ void add_steady(py::module_& module) {
              "  another mesh. None: undeformed canopy.\n"
              "mesh: a Mesh in place of the canopy of the case; coefficients refer to the area of its "
              "cloth. Without\n"
-             "  `out`.\n\n"
+             "  `out`.\n"
+             "estimate: called once with a FirstEstimate early in the first coupling iteration; not for "
+             "clusters and\n"
+             "  bodies.\n\n"
              "A result that is not converged is also returned: check `converged`. Forces are in [N], "
              "lengths in [m],\n"
              "speeds in [m/s].");

@@ -160,6 +160,23 @@ TEST(Filling, IsWhereTheAreaFirstReachesThatOfTheEnd) {
   EXPECT_NEAR(filling->exponent, 3, 1e-6);
 }
 
+TEST(Filling, OfACanopyThatContractsAtTheEndIsWhereItReachesTheAreaAfterItsLargest) {
+  // Grows by 0.1 a frame, is largest in the last fifth, and contracts to 1.5 and 1.4.
+  std::vector<double> areas = {1.5, 1.4};
+  for (double area = 1.8; area > 0.05; area -= 0.1) areas.insert(areas.begin(), area);
+  std::vector<InflationFrame> frames;
+  for (const double area : areas) {
+    InflationFrame frame;
+    frame.time = 0.01 * double(frames.size() + 1), frame.size.projected_area = area;
+    frames.push_back(frame);
+  }
+  const auto filling = filling_of(frames);
+  ASSERT_TRUE(filling);
+  EXPECT_NEAR(filling->time, 0.145, 1e-8);                                    // at 1.45
+  frames.back().size.projected_area = frames[18].size.projected_area = 1.75;  // as a canopy that still grows
+  EXPECT_FALSE(filling_of(frames));
+}
+
 TEST(Filling, CanopyThatStillGrowsAtTheEndHasNotFilled) {
   std::vector<InflationFrame> frames;
   for (int i = 1; i <= 100; ++i) {

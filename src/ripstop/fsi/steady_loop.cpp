@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "ripstop/canopy/shape.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/quantity_error.h"
 #include "ripstop/flow/steady.h"
@@ -128,7 +129,7 @@ FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) 
   const CanopySurface canopy(cells_, shape, problem_.flow.grid);
   const bool in_full = convergence_.asks_for_full_flow(state, now);
   flow_->place(0, canopy.triangles);
-  FlowField field = advance_flow(state, in_full, now.iteration, report);
+  FlowField field = advance_flow(state, shape, in_full, report);
   enter_flow(now, state, field, problem_.mesh, shape);
   state.body_forces.clear(), state.body_moments.clear();
   for (std::size_t n = 1; n < field.bodies.size(); ++n) {
@@ -184,8 +185,19 @@ Equilibrium SteadySolver::solve_cloth(const SteadyState& state, const Loads& loa
   return found;
 }
 
-FlowField SteadySolver::advance_flow(SteadyState& state, bool in_full, int iteration,
+void SteadySolver::enter_first_estimate(SteadyState& state, const std::vector<Vec3>& shape,
+                                        const FlowProgress& progress) const {
+  const bool one_canopy = problem_.flow.bodies.size() == 1 && !problem_.cluster;
+  if (!one_canopy || !state.iterations.empty() || state.first_estimate ||
+      progress.iteration < FirstEstimate::flow_iterations)
+    return;
+  state.first_estimate = {problem_.flow.air.speed(), progress.drag,
+                          canopy_size(problem_.mesh, shape).projected_diameter};
+}
+
+FlowField SteadySolver::advance_flow(SteadyState& state, const std::vector<Vec3>& shape, bool in_full,
                                      const SteadyReport& report) {
+  const int iteration = static_cast<int>(state.iterations.size()) + 1;
   if (state.in_time) {
     return averaged_flow(*flow_, problem_.flow, *problem_.averaging_window, in_full, state, record_,
                          [&](const WatchProgress& progress) {
@@ -196,6 +208,7 @@ FlowField SteadySolver::advance_flow(SteadyState& state, bool in_full, int itera
   }
   return solve_to_rest(*flow_, convergence_.stopping(problem_.flow, state, in_full),
                        [&](const FlowProgress& progress) {
+                         enter_first_estimate(state, shape, progress);
                          if (report)
                            report({.stage = SteadyStage::flow, .iteration = iteration, .flow = progress});
                          return true;

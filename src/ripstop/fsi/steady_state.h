@@ -1,6 +1,7 @@
 // State of the steady loop between iterations.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "ripstop/core/members.h"
@@ -72,6 +73,20 @@ void each_member(T& s, Visit&& visit) {
   visit("touching_deg", s.touching);
 }
 
+/// Drag and shape early in the first iteration of one canopy without bodies, whose flow has not settled.
+struct FirstEstimate {
+  static constexpr int flow_iterations = 30;  // after which it is made
+  double speed = 0;                           // of the stream [m/s]
+  double drag = 0;                            // [N]
+  double projected_diameter = 0;              // of the shape in equilibrium with a uniform pressure [m]
+};
+template <Of<FirstEstimate> T, class Visit>
+void each_member(T& e, Visit&& visit) {
+  visit("speed_m_s", e.speed);
+  visit("drag_n", e.drag);
+  visit("projected_diameter_m", e.projected_diameter);
+}
+
 /// Everything on which the next iteration depends, except the memory of the flow engine. Part of a
 /// checkpoint.
 struct SteadyState {
@@ -91,6 +106,7 @@ struct SteadyState {
   double speed = 0;     // stream speed of this state, where a run searches for it; 0: that of the case [m/s]
   int speeds = 0;       // tried so far
   SpreadSearch spread;  // of a cluster whose spread angle the run searches for
+  std::optional<FirstEstimate> first_estimate;  // of the first iteration, once it is made
 };
 
 template <Of<SteadyState> T, class Visit>
@@ -119,6 +135,7 @@ void each_member(T& s, Visit&& visit) {
   visit("speed", s.speed);
   visit("speeds", s.speeds);
   visit("spread_search", s.spread);
+  visit("first_estimate", s.first_estimate);
 }
 
 }  // namespace ripstop::inline fsi

@@ -132,11 +132,30 @@ std::vector<StageSummary> summarise_stages(const std::vector<HistoryRow>& rows,
   return stages;
 }
 
+namespace {
+
+/// The first of the frames whose mean area is that of the full canopy: of the last fifth, or where the canopy is largest
+/// within it and then contracts, of those that follow.
+std::size_t begin_of_full(const std::vector<InflationFrame>& frames) {
+  constexpr double contracted = 0.95;  // of the largest area: less is no scatter of a canopy that still grows
+  const auto smaller = [](const InflationFrame& a, const InflationFrame& b) {
+    return a.size.projected_area < b.size.projected_area;
+  };
+  const std::size_t last = frames.size() - frames.size() / 5;
+  const auto largest = std::max_element(frames.begin(), frames.end(), smaller);
+  const auto least = std::min_element(largest, frames.end(), smaller);
+  const auto at = static_cast<std::size_t>(largest - frames.begin());
+  const bool past = least->size.projected_area < contracted * largest->size.projected_area;
+  return at >= last && past ? at + 1 : last;
+}
+
+}  // namespace
+
 std::optional<Filling> filling_of(const std::vector<InflationFrame>& frames) {
   constexpr double folded =
       0.5;  // of the area when full: a canopy that starts with more has not opened since
-  const std::size_t last = frames.size() - frames.size() / 5;
-  if (last == frames.size()) return {};
+  if (frames.size() < 5) return {};
+  const std::size_t last = begin_of_full(frames);
   double full = 0;
   for (std::size_t i = last; i < frames.size(); ++i)
     full += frames[i].size.projected_area / double(frames.size() - last);

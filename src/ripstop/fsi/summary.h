@@ -26,10 +26,11 @@ InflationSummary summarise(const std::vector<HistoryRow>& rows, double low_pass_
 
 /// First full inflation, by the projected area.
 struct Filling {
-  double time = 0;      // when the area first reaches its mean over the last fifth of the opening [s]
+  double time = 0;      // when the area first reaches its mean when full [s]
   double exponent = 0;  // j of the least squares fit ln(area / that mean) = j ln(t / time)
 };
-/// Nothing for an opening that does not reach that mean before its last fifth begins: it has not filled.
+/// The canopy is full in the last fifth of the opening, or where its area is largest in it and then decreases by more
+/// than 5 %, after that maximum. Nothing for an opening that does not reach the mean area before: it has not filled.
 std::optional<Filling> filling_of(const std::vector<InflationFrame>& frames);
 
 /// The largest load over every step of the rows that begin after `start_up` [s], of all rows where none does.

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <set>
 
+#include "ripstop/canopy/shape.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
@@ -78,6 +79,39 @@ TEST(SteadyRun, AnIterationReportsMotionAndStepsOfTheCloth) {
     EXPECT_DOUBLE_EQ(now.approach_speed, small_problem().flow.air.speed());  // all air of this flow has it
     EXPECT_GT(now.flow_iterations, 0);
   }
+}
+
+TEST(SteadyRun, TheFirstEstimateIsTheDragEarlyInTheFirstIteration) {
+  FormulaEngine engine;
+  SteadyProblem problem = small_problem();
+  problem.flow.stopping.residual = 1e-12;  // more iterations than the estimate needs
+  SteadySolver solver(std::move(problem), engine);
+  SteadyState state = solver.start();
+  double early = 0;
+  solver.iterate(state, [&](const SteadyProgress& p) {
+    if (p.stage == SteadyStage::flow && p.flow.iteration == FirstEstimate::flow_iterations)
+      early = p.flow.drag;
+  });
+  ASSERT_TRUE(state.first_estimate);
+  EXPECT_EQ(state.first_estimate->drag, early);
+  EXPECT_GT(early, 0);
+  EXPECT_NE(early, state.iterations.back().fluid_force);
+  EXPECT_EQ(state.first_estimate->speed, small_problem().flow.air.speed());
+  EXPECT_EQ(state.first_estimate->projected_diameter,
+            canopy_size(solver.mesh(), state.shape).projected_diameter);
+  solver.iterate(state);
+  EXPECT_EQ(state.first_estimate->drag, early);
+}
+
+TEST(SteadyRun, WithARigidBodyThereIsNoFirstEstimate) {
+  FormulaEngine engine;
+  SteadyProblem problem = small_problem();
+  problem.flow.stopping.residual = 1e-12;
+  problem.flow.bodies.push_back(problem.flow.bodies.front());
+  SteadySolver solver(std::move(problem), engine);
+  SteadyState state = solver.start();
+  solver.iterate(state);
+  EXPECT_FALSE(state.first_estimate);
 }
 
 /// Whose force is half a percent higher every time that the cloth is placed.

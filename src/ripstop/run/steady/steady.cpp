@@ -107,6 +107,7 @@ SteadyResult steady_result(const SteadySolver& solver, const SteadyState& state,
   r.margins = case_margins(resolved, solver.mesh(), tensions, r.stress);
   r.iterations = r.last.iteration;
   r.converged = state.converged;
+  r.first_estimate = state.first_estimate;
   r.transfer_factor = r.last.transfer_factor;
   r.load_remainder = r.last.residual_traction;
   r.axial_moment = r.last.axial_moment;

@@ -168,6 +168,7 @@ struct SteadyResult {
   int iterations = 0;
   double wall_time = 0;  // of the run, earlier parts of a resumed one included [s]
   bool converged = false;
+  std::optional<FirstEstimate> first_estimate;  // absent where none was made
   double transfer_factor = 0, load_remainder = 0, axial_moment = 0, section_gap = 0;
   Ledger ledger;
   std::optional<SolvedDomain> domain;  // absent in results of earlier versions
@@ -206,6 +207,7 @@ void each_member(T& r, Visit&& visit) {
   visit("coupling_iterations", r.iterations, in_table);
   visit("wall_time_s", r.wall_time, in_table);
   visit("converged", r.converged);
+  visit("first_estimate", r.first_estimate);
   visit("transfer_factor", r.transfer_factor);
   visit("load_remainder", r.load_remainder);
   visit("axial_moment_n_m", r.axial_moment);
