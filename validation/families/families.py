@@ -6,7 +6,7 @@ one.
 
 Runs `ripstop steady` on each with cloth of the library as a sheet of its specified permeability, without calibration. `coupling.load` is
 "of-flow", the default, and then "uniform". docs/tables/families.md compares the drag with Knacke's manual, and examples/families.json
-has it as data for `ripstop size` (shipped.py). docs/tables/loads.md compares both loads. Pictures and plots, first of all `load.png`
+has it as data for `ripstop size` (shipped.py). docs/tables/loads.md compares both loads, and docs/tables/first-estimates.md the first estimate of a run with its result. Pictures and plots, first of all `load.png`
 and `pressure.png`, remain in the run folders. Finished runs are not repeated. `--grid 40 40 50 --set KEY=VALUE` are passed to `ripstop`
 for a quick test; the loads are then only printed.
 
@@ -131,6 +131,18 @@ def loads_table(options, results):
     return tables.table(["example", "load", "drag N", "projected diameter m", "skirt diameter m", "maximum line tension N",
                          "Cp inside", "Cp outside", "residual traction %", "axial moment %", "section imbalance %",
                          "coupling iterations"], rows)
+
+
+def estimates_table(results):
+    """First estimates of the runs under the load of the flow, and their differences from the results."""
+    rows = []
+    for name, r in results.items():
+        first = r["first_estimate"]
+        rows.append([name, f"{first['drag_n']:.1f}", f"{r['drag_n']:.1f}", f"{100 * (first['drag_n'] / r['drag_n'] - 1):+.1f}",
+                     f"{first['projected_diameter_m']:.3f}", f"{r['projected_diameter_m']:.3f}",
+                     f"{100 * (first['projected_diameter_m'] / r['projected_diameter_m'] - 1):+.1f}"])
+    return tables.table(["example", "drag estimated N", "drag N", "difference %", "projected diameter estimated m", "projected diameter m",
+                         "difference %"], rows)
 
 
 def in_handbook():
@@ -261,11 +273,19 @@ def main():
         if wanted:
             table(options)
             return
-    done = {(name, load): run(options, name, load) for load in LOADS for name in options.names}
-    results = {(name, load): done[name, load] for name in options.names for load in LOADS}
+    whole = not options.grid and not options.set and options.names == FAMILIES + CAMPAIGN
+    of_flow = {name: run(options, name, LOADS[0]) for name in options.names}
+    if None not in of_flow.values():
+        estimates = estimates_table(of_flow)
+        print("\n".join(estimates))
+        if whole:
+            made = [run for name in of_flow for run in tables.runs_below(folder_of(options, name, LOADS[0]))]
+            tables.write("first-estimates", "First estimate of a steady run and its result", "make validate-families", made, estimates)
+    uniform = {name: run(options, name, LOADS[1]) for name in options.names}
+    results = {(name, load): done[name] for name in options.names for load, done in zip(LOADS, (of_flow, uniform))}
     loads = loads_table(options, results)
     print("\n".join(loads))
-    if options.grid or options.set or options.names != FAMILIES + CAMPAIGN:
+    if not whole:
         return
     if None in results.values():
         sys.exit("a run failed: no table is written")
