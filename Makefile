@@ -174,7 +174,7 @@ validate-filling: build  ## Openings of one canopy with one parameter changed at
 validate-regimes: build  ## Openings over mass, size, speed and cloth compared with the handbook, into docs/tables: an hour; resumable
 	@/usr/bin/python3 validation/opening/regimes.py --ripstop build/bin/ripstop
 
-validate-convergence: build  ## Mean peak of eight openings on finer cloth and cells, into docs/tables: two hours; resumable
+validate-convergence: build  ## Mean peak of openings on finer cloth and cells, into docs/tables: two hours; resumable
 	@/usr/bin/python3 validation/opening/convergence.py --ripstop build/bin/ripstop
 
 validate-flights: build  ## Free flights of eleven families, vents, cloths and grids compared with Knacke's values, into docs/tables: three hours; resumable
