@@ -196,6 +196,12 @@ void print_result(const InflationResult& r, const fs::path& folder, double wall_
   print_steady_load(r);
   print_margins(r.margins);
   row("impulse", fmt::format("{:.3f} N s", r.impulse));
+  for (const OpeningBody& body : r.bodies.value_or(std::vector<OpeningBody>()))
+    row(("body " + body.name).c_str(),
+        fmt::format("largest drag {:.3g} N at {:.1f} ms; mean over the last fifth: drag area {:.4g} m2, "
+                    "coefficient {:.3f} on {:.4g} m2",
+                    body.peak_drag, 1000 * body.peak_time, body.drag_area, body.drag_coefficient,
+                    body.reference_area));
   print_stages(r);
   row("maximum line tension", fmt::format("{:.1f} N", r.max_line_tension));
   row("maximum von Mises stress", fmt::format("{:.0f} N/m, mean over 50 mm ({}) at {:.1f} ms",

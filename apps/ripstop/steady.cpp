@@ -141,7 +141,8 @@ void print_result(const SteadyResult& r, const Settings& resolved, const fs::pat
   if (r.cluster) print_cluster(*r.cluster, r.reference_area);
   for (const BodyResult& body : r.bodies.value_or(std::vector<BodyResult>()))
     row(("body " + body.name).c_str(),
-        fmt::format("drag {:.3g} N, coefficient {:.3f} on {:.4g} m2; side force {:.2g} N", body.drag,
+        fmt::format("drag {:.3g} N{}, coefficient {:.3f} on {:.4g} m2; side force {:.2g} N", body.drag,
+                    body.standard_error ? fmt::format(" +- {:.2g} N", *body.standard_error) : "",
                     body.drag_coefficient, body.reference_area, body.side));
   print_payload(r);
   print_margins(r.margins);

@@ -142,6 +142,7 @@ void add_inflate(py::module_& module) {
   add_class<Snapshot>(module, "InflationShot",
                       "Shape during the opening: time [s], positions [m], von_mises [N/m].");
   add_class<StageSummary>(module, "StageSummary", "Results of one stage of a reefed opening.");
+  add_class<OpeningBody>(module, "OpeningBody", "Loads on a rigid body in a coupled inflation.");
   add_class<MethodLoad>(module, "MethodLoad", "Opening load by one method.");
   add_class<DeploymentPhase>(module, "DeploymentPhase", "Start of a phase of a deployment.");
   add_class<Deployment>(module, "Deployment", "Deployment before an opening, in one dimension.");

@@ -268,6 +268,13 @@ Deployment.snatch_load_n: largest tension at the payload
 Deployment.snatch_time_s: time of this tension
 Deployment.relative_speed_at_line_stretch_m_s: speed difference of payload and container at line stretch
 Deployment.stopped: reason why the canopy does not leave its container; None: it leaves it
+Inflation.bodies: loads on rigid bodies upstream; None: without any
+OpeningBody.name: name of the body in the case
+OpeningBody.peak_drag_n: largest force along the stream after the start-up
+OpeningBody.peak_time_s: time of this peak since deployment
+OpeningBody.drag_area_at_end_m2: mean drag area over the last fifth of the opening
+OpeningBody.reference_area_m2: reference area of the body
+OpeningBody.drag_coefficient_at_end: this drag area over the reference area
 OpeningProgress.time_s: time since deployment
 OpeningProgress.duration_s: end of the opening
 OpeningProgress.load_n: present load on the riser
@@ -282,6 +289,12 @@ StabilityAngle.c_m: moment coefficient C_m about the confluence over q S0 D0, po
 StabilityAngle.c_d: drag coefficient C_D: force along the stream over q S0
 StabilityAngle.c_l: lift coefficient C_L: force normal to the stream in the plane of the angle over q S0
 StabilityAngle.c_y: side force coefficient C_Y: force normal to this plane over q S0
+StabilityAngle.bodies: mean loads on rigid bodies upstream; None: without any
+StabilityBody.name: name of the body in the case
+StabilityBody.drag_n: force along the stream
+StabilityBody.drag_standard_error_n: its standard error; None: steady flow
+StabilityBody.force_n: force in the axes of the canopy (x, y, z)
+StabilityBody.moment_n_m: moment about the centre of the aft end in these axes (x, y, z)
 StabilityAngle.time_s: duration of the record; 0: steady flow
 StabilityAngle.steps: number of time steps, or of iterations
 Trim.angle_deg: angle of attack at which C_m = 0
@@ -304,6 +317,7 @@ BodyResult.side_force_n: magnitude of the force across the stream
 BodyResult.moment_n_m: moment about the centre of the aft end (x, y, z)
 BodyResult.reference_area_m2: reference area of the body
 BodyResult.drag_coefficient: drag coefficient on the reference area of the body
+BodyResult.drag_standard_error_n: standard error of the drag, the mean of an unsteady flow; None: steady flow
 ClusterCanopy.azimuth_deg: azimuth about the axis of the cluster, from x
 ClusterCanopy.drag_n: force along the stream
 ClusterCanopy.riser_load_n: magnitude of the air load, which the riser carries

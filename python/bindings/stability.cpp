@@ -49,6 +49,7 @@ StabilityResult stability(const PyCase& given, const std::vector<double>& angles
 }  // namespace
 
 void add_stability(py::module_& module) {
+  add_class<StabilityBody>(module, "StabilityBody", "Mean loads on a rigid body at one angle of attack.");
   add_class<StabilityRow>(module, "StabilityAngle",
                           "Coefficients at one angle of attack, with their standard errors.");
   add_class<Trim>(module, "Trim", "Angle of attack at which the moment about the confluence is zero.");

@@ -9,6 +9,7 @@
 #include "../refusal.h"
 #include "../small_case.h"
 #include "ripstop/case/assemble.h"
+#include "ripstop/case/opening.h"
 #include "ripstop/case/resolve.h"
 #include "ripstop/core/toml/problem.h"
 #include "ripstop/flow/extent.h"
@@ -96,11 +97,21 @@ TEST(Bodies, ImpossibleOnesAreRefusedWithTheirKey) {
             "body.canopy");
 }
 
-TEST(Bodies, OpeningsRefuseThem) {
+TEST(Bodies, FlightsRefuseThem) {
   const Settings resolved = resolve(checked(behind_a_cylinder(1)));
-  EXPECT_NE(refusal_of([&] { require_canopy_alone(resolved, "an opening"); }, ExitCode::usage)
-                .find("body.rocket: an opening"),
+  EXPECT_NE(refusal_of([&] { require_canopy_alone(resolved, "a flight"); }, ExitCode::usage)
+                .find("body.rocket: in a flight the payload moves"),
             std::string::npos);
+}
+
+TEST(Bodies, AreInTheFlowOfACoupledInflation) {
+  Case given = behind_a_cylinder(1.5);
+  given.inflation.air = AirModel::coupled;
+  given.inflation.initial_radius_m = 0.05;
+  const Settings opening = resolve(opening_case(checked(given)));
+  const InflationProblem problem = opening_problem(opening, load_source(opening), 1);
+  ASSERT_EQ(problem.air->flow.bodies.size(), 2u);
+  EXPECT_EQ(problem.air->flow.bodies[1].name, "rocket");
 }
 
 }  // namespace

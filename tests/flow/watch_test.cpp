@@ -22,6 +22,11 @@ class ForceOverTime final : public Flow {
       now_.force = {0.1 * force_(now_.time), 0, force_(now_.time)};
       now_.momentum_gap = {0, 0, 0.25};
       now_.mass_defect = 0.1 / now_.step;
+      if (of_body) {
+        const Vec3 more{0, 0, of_body(now_.time)};
+        now_.bodies = {{now_.force, {}}, {more, {}}};
+        now_.force += more;
+      }
       if (report && !report(now_)) break;
     }
     return now_;
@@ -40,6 +45,8 @@ class ForceOverTime final : public Flow {
   void start_afresh() override {}
   void save(const std::filesystem::path&) const override {}
   void restore(const std::filesystem::path&) override {}
+
+  std::function<double(double)> of_body;  // along the stream, in addition to that on the canopy [N]
 
  private:
   std::function<double(double)> force_;
@@ -103,6 +110,24 @@ TEST(Watch, ADevelopedWakeIsWatchedFromWhereItsRecordHasSettled) {
   EXPECT_LT(settled.watched(), 12 / 2.0 + 20 * 0.5);
   const FlowRecord changes = of([](double t) { return 10 + 20 * std::exp(-t / 2) + std::sin(5 * t); });
   EXPECT_GT(changes.start_up, 4) << "a change after the last window is left out all the same";
+}
+
+TEST(Watch, HasTheMeanDragOfRigidBodiesApartFromThatOfTheCanopy) {
+  const auto canopy = [](double t) { return 10 + 20 * std::exp(-t / 2) + std::sin(5 * t); };
+  ForceOverTime flow(canopy), alone(canopy);
+  flow.of_body = [](double t) { return 4 + 8 * std::exp(-t / 2) + 0.5 * std::sin(7 * t); };
+  FlowProblem problem = stream();
+  problem.bodies = {sheet_body({}, {0, 1}), sheet_body({}, impermeable, "rocket")};
+  FlowRecord record, of_alone;
+  watch(flow, problem, half_a_second_a_length, record);
+  watch(alone, stream(), half_a_second_a_length, of_alone);
+  ASSERT_EQ(record.body_drag.size(), 1u);
+  EXPECT_TRUE(of_alone.body_drag.empty());
+  EXPECT_NEAR(record.body_drag[0].mean, 4, 0.1) << "without the start-up";
+  EXPECT_GT(record.body_drag[0].standard_error, 1e-4);
+  EXPECT_LT(record.body_drag[0].standard_error, 0.1);
+  EXPECT_NEAR(record.drag.mean, of_alone.drag.mean, 1e-9);
+  EXPECT_EQ(record.steps.size(), of_alone.steps.size());
 }
 
 // The velocity of this flow is the time; parts are a quarter of the shortest watch, here half a second.

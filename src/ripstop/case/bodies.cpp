@@ -166,9 +166,10 @@ void require_canopy_alone(const Settings& resolved, const char* what) {
   if (resolved.written().bodies.empty()) return;
   throw Error(
       ExitCode::usage,
-      fmt::format("body.{}: {} computes the canopy alone; only a steady run and a sweep include rigid bodies "
-                  "(remove the table)",
-                  resolved.written().bodies.begin()->first, what));
+      fmt::format(
+          "body.{}: in {} the payload moves through the cells of the flow, but rigid bodies must be at "
+          "rest in them; remove the table (steady runs, sweeps, stability and inflations include bodies)",
+          resolved.written().bodies.begin()->first, what));
 }
 
 }  // namespace ripstop::inline cases

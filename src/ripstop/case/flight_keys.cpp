@@ -22,8 +22,8 @@ void describe(Fields& fields, PayloadKeys& payload) {
   fields.number(
       "drag_area_m2", payload.drag_area_m2, from(0).up_to(1e4),
       "Drag area C_D S of the payload in the undisturbed stream: it carries a part of the weight in `ripstop "
-      "steady` and decelerates a free payload during the opening. The effect of its wake on the canopy is "
-      "not modelled. Use a measured value for a smooth body: its flow separation is not computed.");
+      "steady` and decelerates a free payload during the opening. Its wake needs a body, "
+      "[body.NAME]. Use a measured value for a smooth body: its flow separation is not computed.");
 }
 
 void describe(Fields& fields, Wind& wind) {

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "ripstop/case/assemble.h"
-#include "ripstop/case/bodies.h"
 #include "ripstop/case/cluster.h"
 #include "ripstop/case/cost.h"
 #include "ripstop/case/deployment.h"
@@ -201,7 +200,6 @@ InflationProblem opening_problem(const Settings& opening, const LoadSource& sour
   if (opening.inflation().air == AirModel::coupled) {
     const Cost cost = cost_of(opening);
     require_memory(cost.memory, fmt::format("a coupled inflation with {:.3g} cells", cost.cells));
-    require_canopy_alone(opening, "an opening");
     problem.air = AirProblem{flow_problem(opening), opening.inflation().courant};
     // The inertia of hems and allowances counts at the payload, so that the cloth keeps that of its area.
     if (opening.inflation().mass == InflationSettings::Mass::payload)

@@ -59,18 +59,28 @@ inline double as_number(const std::optional<double>& value) {
   return value.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
-/// A list of numbers as the columns of a table.
+/// A member that can be a column of a table.
+template <class Member>
+concept NumberMember = requires(const Member& member) {
+  as_number(member);
+};
+
+/// The numbers of a list as the columns of a table, without its other members.
 template <Listed T>
 std::vector<std::string> columns_of() {
   std::vector<std::string> names;
   T value;
-  each_member(value, [&](const char* name, auto&&...) { names.emplace_back(name); });
+  each_member(value, [&]<class Member>(const char* name, const Member&, auto&&...) {
+    if constexpr (NumberMember<Member>) names.emplace_back(name);
+  });
   return names;
 }
 template <Listed T>
 std::vector<double> row_of(const T& value) {
   std::vector<double> row;
-  each_member(value, [&](const char*, const auto& member, auto&&...) { row.push_back(as_number(member)); });
+  each_member(value, [&]<class Member>(const char*, const Member& member, auto&&...) {
+    if constexpr (NumberMember<Member>) row.push_back(as_number(member));
+  });
   return row;
 }
 /// `row` as long as columns_of<T>().

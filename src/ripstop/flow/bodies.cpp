@@ -126,15 +126,14 @@ void check_closed(const std::vector<Triangle>& surface, const std::string& name)
   // Every edge has two triangles, which pass along it in opposite directions.
   std::map<std::pair<std::array<double, 3>, std::array<double, 3>>, int> edges;
   const auto key = [](Vec3 p) { return std::array<double, 3>{p.x, p.y, p.z}; };
-  double volume = 0;
   for (const Triangle& t : surface) {
     for (const auto& [p, q] : {std::pair{t.a, t.b}, std::pair{t.b, t.c}, std::pair{t.c, t.a}}) {
       const auto from = key(p), to = key(q);
       if (from < to) ++edges[{from, to}];
       if (to < from) --edges[{to, from}];
     }
-    volume += dot(t.a, cross(t.b, t.c)) / 6;
   }
+  const double volume = enclosed_by(surface).volume;
   std::size_t open = 0;
   Vec3 at;
   for (const auto& [edge, balance] : edges) {
@@ -157,6 +156,23 @@ void check_closed(const std::vector<Triangle>& surface, const std::string& name)
                     "triangles",
                     name, volume));
   }
+}
+
+Enclosed enclosed_by(const std::vector<Triangle>& surface) {
+  Enclosed sum;
+  for (const Triangle& t : surface) {
+    const double volume = dot(t.a, cross(t.b, t.c)) / 6;  // of the tetrahedron with the origin
+    sum.volume += volume, sum.centre += 0.25 * volume * (t.a + t.b + t.c);
+  }
+  if (sum.volume != 0) sum.centre = sum.centre / sum.volume;
+  return sum;
+}
+
+BodyLoad without_displaced_air(BodyLoad load, const FlowBody& body, Vec3 force_on_air) {
+  const auto [volume, centre] = enclosed_by(body.surface);
+  const Vec3 force = volume * force_on_air;
+  load.force -= force, load.moment -= cross(centre - body.moment_about, force);
+  return load;
 }
 
 double frontal_area(const std::vector<Triangle>& surface) {

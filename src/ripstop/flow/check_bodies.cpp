@@ -6,44 +6,11 @@
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/quantity_error.h"
+#include "ripstop/flow/apart.h"
 #include "ripstop/flow/extent.h"
 
 namespace ripstop::inline flow {
 namespace {
-
-/// Whether the line from p to q passes through the triangle (Moeller and Trumbore 1997).
-bool pierces(Vec3 p, Vec3 q, const Triangle& t) {
-  const Vec3 way = q - p, u = t.b - t.a, v = t.c - t.a, across = cross(way, v), from = p - t.a;
-  const double scale = dot(u, across);
-  if (scale == 0) return false;  // along its plane
-  const double first = dot(from, across) / scale;
-  const Vec3 up = cross(from, u);
-  const double second = dot(way, up) / scale, at = dot(v, up) / scale;
-  return first >= 0 && second >= 0 && first + second <= 1 && at >= 0 && at <= 1;
-}
-
-bool cut(const Triangle& a, const Triangle& b) {
-  return pierces(a.a, a.b, b) || pierces(a.b, a.c, b) || pierces(a.c, a.a, b) || pierces(b.a, b.b, a) ||
-         pierces(b.b, b.c, a) || pierces(b.c, b.a, a);
-}
-
-/// The triangles of a body that may touch the region `where`, with their extents.
-std::vector<std::pair<Triangle, Extent>> near(const FlowBody& body, const Extent& where) {
-  std::vector<std::pair<Triangle, Extent>> result;
-  for (const Triangle& t : body.surface)
-    if (const Extent extent = extent_of(t); extent.meets(where)) result.emplace_back(t, extent);
-  return result;
-}
-
-bool overlap(const FlowBody& a, const FlowBody& b) {
-  const Extent of_a = extent_of(a.surface), of_b = extent_of(b.surface);
-  if (!of_a.meets(of_b)) return false;
-  const auto some_of_b = near(b, of_a);
-  for (const auto& [t, extent] : near(a, of_b))
-    for (const auto& [other, other_extent] : some_of_b)
-      if (extent.meets(other_extent) && cut(t, other)) return true;
-  return false;
-}
 
 /// A screen may reach into the walls of a duct, but nothing may reach out of open faces.
 void check_inside(const FlowProblem& problem, const FlowBody& body) {
@@ -76,7 +43,7 @@ void check_bodies(const FlowProblem& problem) {
             ExitCode::usage,
             fmt::format("flow: bodies {} and {} have the same name \"{}\"; each needs a different name",
                         m + 1, n + 1, bodies[n].name));
-      if (overlap(bodies[m], bodies[n]))
+      if (intersect(bodies[m].surface, bodies[n].surface))
         throw QuantityError(
             ExitCode::usage,
             fmt::format(

@@ -62,15 +62,22 @@ class MeanInParts {
   std::vector<Part> parts_;
 };
 
-/// The force on the canopy along one axis.
-Record record_of(const std::vector<FlowStep>& steps, Vec3 axis) {
+/// A force along one axis.
+template <class Force>
+Record record_of(const std::vector<FlowStep>& steps, Vec3 axis, const Force& force) {
   Record record;
   record.begin = steps.front().time - steps.front().length;
   for (const FlowStep& step : steps) {
     record.until.push_back(step.time);
-    record.values.push_back(dot(step.force - force_on_others(step.bodies), axis));
+    record.values.push_back(dot(force(step), axis));
   }
   return record;
+}
+
+/// The force on the canopy along one axis.
+Record record_of(const std::vector<FlowStep>& steps, Vec3 axis) {
+  return record_of(steps, axis,
+                   [](const FlowStep& step) { return step.force - force_on_others(step.bodies); });
 }
 
 void check(const Watch& how) {
@@ -192,6 +199,11 @@ FlowField watch(Flow& flow, const FlowProblem& problem, const Watch& how, FlowRe
   const double from = x.begin + record.start_up;
   record.side_x = mean_over_time(x, from), record.side_y = mean_over_time(y, from);
   record.swing = strongest_frequency({x, y}, from);
+  for (std::size_t n = 1; n < problem.bodies.size(); ++n) {
+    const Record of_body =
+        record_of(record.steps, stream, [&](const FlowStep& step) { return step.bodies.at(n).force; });
+    record.body_drag.push_back(mean_over_time(of_body, from));
+  }
   FlowField field = mean.since(record.start_up);
   // Fluxes through the faces of the box minus the growth of its momentum: force and gap of every step.
   Vec3 gap;

@@ -36,8 +36,10 @@ struct FlowRecord {
           // the wake is developed at least until the stream has been through the box [s]
   MeanOverTime drag, side_x, side_y;  // of the rest, along the stream and along x and y turned with it [N]
   Peak swing;                         // of the side force
-  bool enough = false;                // the standard error reached the required value
-  std::vector<FlowSlice> slices;      // the last ones, evenly in time
+  std::vector<MeanOverTime>
+      body_drag;        // the same along the stream of each rigid body, the bodies after the canopy [N]
+  bool enough = false;  // the standard error reached the required value
+  std::vector<FlowSlice> slices;  // the last ones, evenly in time
 
   double watched() const;              // [s]
   double largest_mass_defect() const;  // FlowStep::mass_defect of the steps after the start-up

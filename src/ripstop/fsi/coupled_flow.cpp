@@ -1,11 +1,14 @@
 #include "ripstop/fsi/coupled_flow.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
 #include "ripstop/core/error.h"
+#include "ripstop/flow/apart.h"
 #include "ripstop/fsi/added_mass.h"
 #include "ripstop/fsi/lattice.h"
 #include "ripstop/fsi/sheet_transfer.h"
@@ -20,11 +23,22 @@ double mean_share(int steps) {
   return 0.5 * (1 + 1.0 / steps);
 }
 
+bool is_rigid(const FlowBody& body) {
+  return body.is_sheet() && body.drop().linear >= impermeable.linear && body.motion.velocity.empty();
+}
+
 std::unique_ptr<Flow> start_flow(const AirProblem& problem, std::vector<Triangle> surface) {
   if (!problem.engine) throw Error(ExitCode::usage, "coupled inflation needs a flow engine");
   FlowProblem flow = problem.flow;
-  if (flow.bodies.size() != 1 || !flow.has_sheets())
-    throw Error(ExitCode::usage, "coupled inflation supports one sheet only");
+  if (flow.bodies.empty() || !flow.bodies[0].is_sheet())
+    throw Error(ExitCode::usage, "coupled inflation needs a canopy that is a sheet");
+  for (std::size_t n = 1; n < flow.bodies.size(); ++n)
+    if (!is_rigid(flow.bodies[n]))
+      throw Error(
+          ExitCode::usage,
+          fmt::format("coupled inflation supports one canopy and rigid, impermeable bodies: \"{}\" is "
+                      "neither",
+                      flow.bodies[n].name));
   flow.bodies[0].surface = std::move(surface);
   return problem.engine->start(flow);
 }
@@ -122,6 +136,7 @@ CoupledFlow::CoupledFlow(const AirProblem& problem, const Mesh& mesh, ThreadTeam
       node_mass_(mesh.mass),
       cells_(cells_of(mesh)),
       mass_(least_mass(mesh, cells_)),
+      bodies_(problem.flow.bodies),
       flow_(start_flow(problem, surface_of(cells_, mesh.start)), density_) {}
 
 // On the axis, where the canopy is.
@@ -184,6 +199,7 @@ FlowStep CoupledFlow::step(const std::vector<Vec3>& positions, const ClothMotion
                            const Surroundings& surroundings, AirMemory& memory) {
   flow_.set_density_ratio(surroundings.density_ratio);
   surface_ = surface_of(cells_, positions);
+  require_apart(surface_, bodies_);
   flow_.place(surface_, sheet_motion(positions, predicted, length, surroundings.guided, memory));
   if (surroundings.moves) flow_.stream(surroundings.stream, surroundings.gained);
   ++memory.steps;
@@ -192,8 +208,8 @@ FlowStep CoupledFlow::step(const std::vector<Vec3>& positions, const ClothMotion
 
 Loads CoupledFlow::transfer(const std::vector<Vec3>& positions, const Surroundings& surroundings,
                             AirMemory& memory, double& residual_traction) const {
-  ClothLoad load =
-      load_of_flow(flow_.sheet_loads(), grid_, surface_, cells_, positions, Folds::filled, team_);
+  ClothLoad load = load_of_flow(loads_on(0, flow_.sheet_loads()), grid_, surface_, cells_, positions,
+                                Folds::filled, team_);
   residual_traction = residual_traction_share(load, cells_, positions);
   memory.pressure = std::exchange(load.pressure, std::vector<double>(cells_.size(), 0.0));
   memory.force = node_forces(load, cells_, positions);

@@ -23,7 +23,8 @@
 namespace ripstop::inline fsi {
 
 struct AirProblem {
-  FlowProblem flow;  // one sheet, the canopy; its surface is left to the opening
+  FlowProblem
+      flow;  // the canopy, a sheet whose surface is left to the opening, then rigid bodies at rest in the box
   double courant = 0.5;
   std::shared_ptr<FlowEngine> engine = {};
   std::optional<Payload> payload = {};      // absent: the riser's end is held
@@ -72,6 +73,9 @@ struct AirRow {
   double mass_defect = 0;                   // FlowStep::mass_defect
   double residual_traction = 0;             // residual_traction_share() of the load
   double added_mass = 0;                    // AirMemory::added_mass [kg]
+  // These are no columns.
+  std::vector<BodyLoad> bodies = {};  // on the rigid bodies, in their order
+  double dynamic_pressure = 0;        // of the stream [Pa]
 };
 
 template <Of<AirRow> T, class Visit>
@@ -119,8 +123,8 @@ ClothMotion predict_motion(const ClothState& state, const Cloth& cloth, const Lo
 
 class CoupledFlow {
  public:
-  /// Throws Error(usage) where the engine cannot step in time, the flow has no single sheet, or the box no room for the
-  /// mesh as it is cut.
+  /// Throws Error(usage) where the engine cannot step in time, the first body of the flow is no sheet or another one is
+  /// not rigid, or the box has no room for the mesh as it is cut.
   /// `team` shares the work of projection and transfer; the results do not depend on it.
   CoupledFlow(const AirProblem& problem, const Mesh& mesh, ThreadTeam* team = nullptr);
 
@@ -128,7 +132,8 @@ class CoupledFlow {
   double longest_step() { return flow_.longest_step(courant_); }
   /// The last step's load on the cloth, with the guided nodes of the present one.
   Loads last_load(const Surroundings& surroundings, const AirMemory& memory) const;
-  /// One step about cloth that lies at `positions` at its beginning and moves as predicted.
+  /// One step about cloth that lies at `positions` at its beginning and moves as predicted. Throws Error(usage) where it
+  /// touches a rigid body.
   FlowStep step(const std::vector<Vec3>& positions, const ClothMotion& predicted, double length,
                 const Surroundings& surroundings, AirMemory& memory);
   /// The load of that step on the cloth at the same `positions`, which is the last load from now on. Sets
@@ -165,6 +170,7 @@ class CoupledFlow {
   std::vector<Cell> cells_;
   std::vector<double> mass_;       // of every triangle of the surface, a unit area [kg/m2]
   std::vector<Triangle> surface_;  // of the last step
+  std::vector<FlowBody> bodies_;   // the canopy without its surface, and the rigid ones
   FlowAtDensity flow_;
 };
 

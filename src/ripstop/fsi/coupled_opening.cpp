@@ -9,8 +9,11 @@
 
 #include "ripstop/core/quantity_error.h"
 #include "ripstop/core/words.h"
+#include "ripstop/flow/apart.h"
+#include "ripstop/flow/bodies.h"
 #include "ripstop/flow/sheet_sides.h"
 #include "ripstop/fsi/coupled_step.h"
+#include "ripstop/fsi/lines_apart.h"
 #include "ripstop/fsi/load_model.h"
 
 namespace ripstop::inline fsi {
@@ -75,6 +78,8 @@ CoupledOpening::CoupledOpening(InflationProblem problem)
       air_(std::make_unique<CoupledFlow>(*problem.air, mesh(), &team())) {
   check_width(folded(), problem.air->flow.grid);
   check_folds(folded(), cells_of(mesh()), problem.air->flow.grid);
+  require_apart(surface_of(cells_of(mesh()), folded().positions), problem.air->flow.bodies);
+  require_lines_apart(mesh(), folded().positions, problem.air->flow.bodies);
   if (problem.air->container) contained_.emplace(mesh(), folded().positions);
 }
 
@@ -161,8 +166,13 @@ AirRow CoupledOpening::step(InflationState& state, int rows, std::vector<History
   AirRow row;
   row.time = state.cloth.time, row.length = length, row.courant = taken.flow.courant;
   row.speed = speed;
-  row.drag = taken.flow.force.z, row.side_x = taken.flow.force.x, row.side_y = taken.flow.force.y;
-  row.drag_area = row.drag / (0.5 * air_->density() * speed * speed);
+  const Vec3 on_canopy = taken.flow.force - force_on_others(taken.flow.bodies);
+  row.drag = on_canopy.z, row.side_x = on_canopy.x, row.side_y = on_canopy.y;
+  for (std::size_t n = 1; n < taken.flow.bodies.size(); ++n)
+    row.bodies.push_back(
+        without_displaced_air(taken.flow.bodies[n], flow.bodies[n], air_->density() * surroundings.gained));
+  row.dynamic_pressure = 0.5 * air_->density() * speed * speed;
+  row.drag_area = row.drag / row.dynamic_pressure;
   row.momentum_gap = taken.flow.momentum_gap.z, row.mass_defect = taken.flow.mass_defect;
   row.residual_traction = taken.residual_traction, row.added_mass = state.air.added_mass;
 

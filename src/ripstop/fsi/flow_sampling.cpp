@@ -32,7 +32,7 @@ FlowField averaged_flow(Flow& flow, const FlowProblem& problem, Watch window, bo
   if (!in_full)
     window.standard_error /= short_window, window.shortest *= short_window, window.longest *= short_window;
   FlowField field = watch(flow, problem, window, record, report);
-  const auto& [steps, start_up, drag, side_x, side_y, swing, enough, slices] = record;
+  const auto& [steps, start_up, drag, side_x, side_y, swing, body_drag, enough, slices] = record;
   const double error = std::max(drag.standard_error, scatter_of_means(state.iterations, drag.mean));
   state.window = {.steps = static_cast<int>(steps.size()),
                   .time = record.watched(),
@@ -47,6 +47,8 @@ FlowField averaged_flow(Flow& flow, const FlowProblem& problem, Watch window, bo
                   .swing_share = swing.share,
                   .enough = enough && error <= window.standard_error * std::abs(drag.mean),
                   .mass_defect = record.largest_mass_defect()};
+  state.body_errors.clear();
+  for (const MeanOverTime& of_body : body_drag) state.body_errors.push_back(of_body.standard_error);
   field.last.iteration = state.window.steps;
   field.average.drag_deviation = drag.deviation;
   return field;

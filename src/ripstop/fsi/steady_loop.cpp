@@ -10,9 +10,11 @@
 #include "ripstop/canopy/shape.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/quantity_error.h"
+#include "ripstop/flow/apart.h"
 #include "ripstop/flow/steady.h"
 #include "ripstop/fsi/flow_sampling.h"
 #include "ripstop/fsi/ledger.h"
+#include "ripstop/fsi/lines_apart.h"
 #include "ripstop/fsi/next_load.h"
 
 namespace ripstop::inline fsi {
@@ -93,6 +95,7 @@ SteadySolver::SteadySolver(SteadyProblem problem, FlowEngine& engine)
   if (problem_.cluster)
     one_cloth_ = make_cloth(problem_.cluster->one(), {.linear = problem_.settings.linear});
   require_inside(problem_.flow.grid, problem_.mesh, cells_);
+  require_lines_apart(problem_.mesh, problem_.mesh.start, problem_.flow.bodies);
 }
 
 SteadyState SteadySolver::start() const {
@@ -127,6 +130,7 @@ FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) 
 
   // Move the surface, advance the flow.
   const CanopySurface canopy(cells_, shape, problem_.flow.grid);
+  require_apart(canopy.triangles, problem_.flow.bodies);
   const bool in_full = convergence_.asks_for_full_flow(state, now);
   flow_->place(0, canopy.triangles);
   FlowField field = advance_flow(state, shape, in_full, report);

@@ -100,6 +100,7 @@ struct SteadyState {
   bool in_time = false;                         // from the next iteration on, the flow is averaged in time
   WindowAverage window;                         // the last one
   std::vector<Vec3> body_forces, body_moments;  // on the bodies other than the canopy [N], [N m]
+  std::vector<double> body_errors;  // standard errors of their mean drag; empty for a steady flow [N]
   std::vector<Vec3> canopy_forces,
       canopy_moments;  // of a cluster: on each canopy, about the confluence [N], [N m]
   bool converged = false;
@@ -121,6 +122,7 @@ void each_member(T& s, Visit&& visit) {
   visit("applied", s.applied);
   visit("body_forces", s.body_forces);
   visit("body_moments", s.body_moments);
+  visit("body_errors", s.body_errors);
   visit("canopy_forces", s.canopy_forces);
   visit("canopy_moments", s.canopy_moments);
   visit("update", s.accelerator.update);

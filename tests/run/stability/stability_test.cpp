@@ -8,6 +8,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/flow/bodies.h"
 #include "ripstop/flow/cartesian/cartesian.h"
+#include "ripstop/flow/extent.h"
 #include "tests/small_case.h"
 
 namespace ripstop {
@@ -65,9 +66,6 @@ TEST(StabilityCases, RejectsFlowsThatAStreamAtAnAngleCannotHave) {
               f.tunnel.width_m = 2;
             }).find("flow.tunnel.kind"),
             std::string::npos);
-  Case with_body = good;
-  with_body.bodies["rocket"];
-  EXPECT_NE(refusal_of([&] { stability_cases(with_body, {0}); }).find("body.rocket"), std::string::npos);
 }
 
 StabilityRow row_at(double angle, double c_m, double error = 0.001) {
@@ -125,7 +123,7 @@ StabilityRow in_time(const FlowProblem& problem, double angle) {
   const auto flow = engine->start(problem);
   FlowRecord record;
   watch(*flow, problem, {.standard_error = 0.1, .shortest = 4, .longest = 8, .length = 1}, record);
-  return row_of_record(record, problem.air, angle, {1.2, pi / 4, 1});
+  return row_of_record(record, problem, angle, {1.2, pi / 4, 1});
 }
 
 TEST(StabilityRow, OfAFlatDiskHasAForceAlongTheAxisAndNoMomentAboutAPointOnIt) {
@@ -179,6 +177,66 @@ TEST(StabilityFlow, ContainsTheCanopyInCellsOfTheAskedWidthAndItsWakeAtTheWidest
   const Settings turned = edited(resolved, [](Case& c) { c.flow.angle_of_attack_deg = 40; });
   EXPECT_EQ(stability_flow(turned, canopy, 12, 40).grid, problem.grid);
   EXPECT_NEAR(stability_flow(turned, canopy, 12, 40).air.velocity.x, 20 * std::sin(40 * pi / 180), 1e-12);
+}
+
+TEST(StabilityFlow, ContainsBodiesWithRoomUpstreamOfThemAtEveryAngle) {
+  Case given = flat_circular_case(1, 800, 20);
+  given.bodies["rocket"].shape = CylinderKeys{0.2, 1, 0};
+  given.bodies["rocket"].trailing_distance_m = 1.5;
+  const Settings resolved = resolve(checked(given)),
+                 turned = edited(resolved, [](Case&c) { c.flow.angle_of_attack_deg = 40; });
+  const double skirt = resolved.flow().canopy_position_m, front = skirt - 2.5;
+  RigidCanopy canopy;
+  canopy.surface = hemispherical_cup(0.7, {0, 0, skirt});
+  canopy.width = 0.7, canopy.confluence = {0, 0, skirt - 1};
+  const FlowProblem problem = stability_flow(resolved, canopy, 12, 40);
+  ASSERT_EQ(problem.bodies.size(), 2u);
+  EXPECT_EQ(problem.bodies[1].name, "rocket");
+  EXPECT_NEAR(problem.grid.origin.z, front - 4 * 0.2, 1e-9);
+  for (const double z : {front - 0.05, front + 0.5, skirt - 0.8})
+    EXPECT_NEAR(problem.grid.spacing({0, 0, z}).z, 0.7 / 12, 0.05 * 0.7 / 12) << z;
+  const FlowProblem at_angle = stability_flow(turned, canopy, 12, 40);
+  EXPECT_EQ(at_angle.grid, problem.grid);
+  EXPECT_EQ(extent_of(at_angle.bodies[1].surface).low, extent_of(problem.bodies[1].surface).low)
+      << "at rest with the canopy, the stream turns";
+}
+
+TEST(StabilityRow, HasTheLoadsOnBodiesApartFromTheCoefficientsOfTheCanopy) {
+  FlowProblem problem = part_of_disk(30, -9);
+  FlowRecord record;
+  for (int n = 1; n <= 40; ++n) {
+    FlowStep step;
+    step.length = 0.1, step.time = 0.1 * n;
+    step.bodies = {{{0, 0, 50 + std::sin(n)}, {}}, {{2, 0, 3 + std::cos(n)}, {0, 0.5, 0}}};
+    step.force = step.bodies[0].force + step.bodies[1].force;
+    record.steps.push_back(step);
+  }
+  const StabilityRow alone = row_of_record(record, problem, 30, {1.2, pi / 4, 1});
+  EXPECT_FALSE(alone.bodies);
+  problem.bodies.push_back(sheet_body(block({0.2, 0.2, 0.2}, {0, 0, -1}), impermeable, "rocket"));
+  const StabilityRow row = row_of_record(record, problem, 30, {1.2, pi / 4, 1});
+  EXPECT_EQ(row.c_t, alone.c_t);
+  ASSERT_TRUE(row.bodies);
+  const StabilityBody& rocket = row.bodies->at(0);
+  EXPECT_EQ(rocket.name, "rocket");
+  EXPECT_NEAR(rocket.force.x, 2, 1e-9);
+  EXPECT_NEAR(rocket.force.z, 3, 0.1);
+  EXPECT_NEAR(rocket.moment.y, 0.5, 1e-9);
+  EXPECT_NEAR(rocket.drag, 2 * std::sin(pi / 6) + rocket.force.z * std::cos(pi / 6), 1e-9);
+  EXPECT_GT(rocket.standard_error.value(), 0);
+  // A row is a row of the table, without the bodies.
+  EXPECT_EQ(row_of(row).size(), columns_of<StabilityRow>().size());
+  EXPECT_EQ(columns_of<StabilityRow>().back(), "mass_defect");
+}
+
+// Behind a block on the axis a disk has less drag, and on the axis neither has a moment.
+TEST(StabilityRow, OfADiskBehindABlockHasLessForceAlongTheAxis) {
+  FlowProblem problem = part_of_disk(0, -9);
+  const StabilityRow alone = in_time(problem, 0);
+  problem.bodies.push_back(sheet_body(block({0.6, 0.6, 0.4}, {0, 0, -0.8}), impermeable, "block"));
+  const StabilityRow behind = in_time(problem, 0);
+  EXPECT_LT(behind.c_t, 0.8 * alone.c_t);
+  EXPECT_GT(behind.bodies.value().at(0).drag, 0);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "../../refusal.h"
 #include "../../small_case.h"
 #include "ripstop/core/file.h"
 #include "ripstop/flow/stl.h"
@@ -52,6 +53,40 @@ TEST(SteadyBodies, TakeDragFromTheCanopyBehindThemAndAreFoundInTheRunFolder) {
   // The finished run is read back with its bodies.
   const SteadyResult again = run_steady_in(settings, resolve(checked(given)), silent).result;
   EXPECT_EQ(again.bodies.value().front().drag, body.drag);
+}
+
+TEST(SteadyBodies, OfAnUnsteadyRunHaveAMeanDragWithItsStandardError) {
+  SteadyObserver silent;
+  Case given = small_drogue();
+  BodyKeys& block = given.bodies["block"];
+  block.shape = BoxKeys{{0.2, 0.2, 0.4}};
+  block.trailing_distance_m = 0.6;
+  given.flow.unsteady = true;
+  given.flow.watch.shortest = 5, given.flow.watch.longest = 10;
+  given.coupling.max_iterations = 2;
+  const SteadyResult result = run_steady(checked(given), silent).result;
+  ASSERT_TRUE(result.bodies && result.unsteady);
+  const BodyResult& body = result.bodies->front();
+  ASSERT_TRUE(body.standard_error);
+  EXPECT_GT(*body.standard_error, 0);
+  EXPECT_LT(*body.standard_error, 0.2 * body.drag);
+  EXPECT_GT(body.drag_coefficient, 0.6);
+  EXPECT_LT(body.drag_coefficient, 1.8);
+  const SteadyResult again = steady_result_from_json(to_json(result));
+  EXPECT_EQ(again.bodies.value().front().standard_error, body.standard_error);
+}
+
+TEST(SteadyBodies, ThatTouchTheLinesOrLeaveTheDomainAreRefused) {
+  SteadyObserver silent;
+  const auto why = [&](double trailing_distance) {
+    Case given = small_drogue();
+    BodyKeys& block = given.bodies["block"];
+    block.shape = BoxKeys{{0.1, 0.1, 0.2}};
+    block.trailing_distance_m = trailing_distance;
+    return refusal_of([&] { run_steady(checked(given), silent); }, ExitCode::usage);
+  };
+  EXPECT_NE(why(0.3).find("lines or the riser pass through the body \"block\""), std::string::npos);
+  EXPECT_NE(why(1.75).find("must lie within"), std::string::npos) << "out of the box";
 }
 
 }  // namespace

@@ -66,6 +66,13 @@ double start_up_of(const Settings& resolved, const Opening& solver) {
              : 0;
 }
 
+/// The rigid bodies of its flow.
+std::vector<FlowBody> rigid_of(const Opening& solver) {
+  std::vector<FlowBody> bodies = solver.problem().air->flow.bodies;
+  bodies.erase(bodies.begin());
+  return bodies;
+}
+
 bool flies(const Opening& solver) {
   return solver.air() && solver.problem().air->payload;
 }
@@ -177,6 +184,18 @@ std::vector<std::string> coarse_cells_warnings(const Settings& resolved, const O
   return judge({{"cells_across", cells_across(resolved)}}).warnings;
 }
 
+/// Of rigid bodies: a uniform pressure does not have their wake.
+std::vector<std::string> opening_body_warnings(const Settings& resolved, const Opening& solver) {
+  if (resolved.written().bodies.empty()) return {};
+  if (solver.air())
+    return body_warnings(resolved, solver.problem().air->flow.grid, true,
+                         "increase flow.cells, or narrow flow.core.size_m");
+  return {
+      fmt::format("body.{}: an opening under a uniform pressure has no wake of a body but that in its "
+                  "pressure; set inflation.air = \"coupled\" for one in the flow",
+                  resolved.written().bodies.begin()->first)};
+}
+
 void take_quality(InflationResult& r, const Settings& resolved, const Opening& solver,
                   const InflationHistory& history) {
   r.energy_residual = energy_residual(history.frames);
@@ -206,6 +225,7 @@ void take_quality(InflationResult& r, const Settings& resolved, const Opening& s
   }
   Judgement judgement = judge(values);
   judgement.add(margin_warnings(r.margins));
+  if (flies(solver)) judgement.add(payload_drag_warnings(resolved, r.bodies));
   if (r.outside && !r.container_left)
     judgement.add({fmt::format(
         "the canopy has not left its container within inflation.duration_s = {:g} s: {:.0f} % of its length "
@@ -257,7 +277,10 @@ InflationResult result_of(const Settings& resolved, const LoadSource& source, co
   if (!solver.air()) r.pressure = solver.problem().pressure;
   for (const AirRow& row : history.air)
     r.drag_area = std::max(r.drag_area.value_or(row.drag_area), row.drag_area);
-  if (solver.air()) r.added_mass = state.air.added_mass;
+  if (solver.air()) {
+    r.added_mass = state.air.added_mass;
+    r.bodies = opening_bodies(resolved, rigid_of(solver), history.bodies, start_up);
+  }
   if (flies(solver)) {
     r.end_speed = state.air.flight.speed;
     r.end_angle = state.air.flight.angle * 180 / std::numbers::pi;
@@ -302,7 +325,10 @@ double flow_seconds(const AirProblem& air, double duration, int nodes) {
 std::vector<HistoryRow> advanced(Opening& solver, InflationState& state, InflationHistory& history,
                                  const std::vector<std::string>& coarse) {
   try {
-    return solver.advance(state, &history.air);
+    const std::size_t before = history.air.size();
+    std::vector<HistoryRow> rows = solver.advance(state, &history.air);
+    add_body_rows(history.air, before, history.bodies);
+    return rows;
   } catch (const Error& error) {
     if (coarse.empty() || error.code() != ExitCode::diverged) throw;
     throw restated(error, fmt::format("{}; the probable cause is the {}", error.what(), coarse.front()));
@@ -318,6 +344,7 @@ std::string to_json(const InflationResult& result) {
 std::vector<std::string> opening_warnings(const Settings& resolved, const Opening& solver) {
   std::vector<std::string> warnings = slow_opening_warnings(resolved, solver);
   for (std::string& text : coarse_cells_warnings(resolved, solver)) warnings.push_back(std::move(text));
+  for (std::string& text : opening_body_warnings(resolved, solver)) warnings.push_back(std::move(text));
   return warnings;
 }
 

@@ -13,6 +13,7 @@
 #include "ripstop/fsi/summary.h"
 #include "ripstop/run/margins.h"
 #include "ripstop/run/opening/method_load.h"
+#include "ripstop/run/opening/opening_bodies.h"
 
 namespace ripstop::inline run {
 
@@ -36,6 +37,7 @@ struct InflationResult {
   std::optional<double> pressure;                   // uniform [Pa]
   std::optional<double> drag_area;                  // C_D S in the air, the largest of a step [m2]
   std::optional<double> added_mass;                 // of the canopy at the end [kg]
+  std::optional<std::vector<OpeningBody>> bodies;   // of a coupled inflation with rigid bodies
   std::optional<Deployment> deployment;  // of a case with [deployment]: until the canopy leaves its bag
   /// Of a coupled inflation by its projected area, see filling_of(); under a uniform pressure the time at which the
   /// load first reaches the steady one.
@@ -107,6 +109,7 @@ void each_member(T& r, Visit&& visit) {
   visit("pressure_pa", r.pressure);
   visit("drag_area_peak_m2", r.drag_area);
   visit("added_mass_kg", r.added_mass);
+  visit("bodies", r.bodies);
   visit("deployment", r.deployment);
   visit("speed_at_end_m_s", r.end_speed);
   visit("path_angle_at_end_deg", r.end_angle);
@@ -165,7 +168,8 @@ std::string to_json(const InflationResult& result);
 struct InflationHistory {
   std::vector<HistoryRow> rows;
   std::vector<InflationFrame> frames;
-  std::vector<AirRow> air;  // a step of the air each; none under a uniform pressure
+  std::vector<AirRow> air;             // a step of the air each; none under a uniform pressure
+  std::vector<OpeningBodyRow> bodies;  // of the rigid bodies in these steps
 };
 
 /// Observer of an opening; functions that are not overridden do nothing.

@@ -9,6 +9,7 @@
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
+#include "ripstop/flow/stl.h"
 #include "ripstop/output/csv.h"
 #include "ripstop/output/picture.h"
 #include "ripstop/output/plot.h"
@@ -47,6 +48,7 @@ class InflationFolder : public InflationObserver {
   void write_air_plot(const InflationHistory& history, const InflationResult& result) const;
   void write_load(const Opening& solver, const std::vector<HistoryRow>& rows,
                   const InflationResult& result) const;
+  void write_bodies(const Opening& solver) const;
   void write_shapes(const Opening& solver, const InflationState& state, const std::string& title) const;
 
   /// Columns of reefed openings are at the end of a row.
@@ -56,11 +58,12 @@ class InflationFolder : public InflationObserver {
   MarchFiles files_;
   bool keep_end_;
   InflationObserver& next_;
-  bool with_air_ = false, reefed_ = false;
+  bool with_air_ = false, with_bodies_ = false, reefed_ = false;
 };
 
 void InflationFolder::begin(const Opening& solver, InflationState& state, InflationHistory& history) {
   with_air_ = solver.air() != nullptr;
+  with_bodies_ = with_air_ && solver.problem().air->flow.bodies.size() > 1;
   reefed_ = !solver.problem().reefing.empty();
   const std::optional<std::string> saved = files_.load();
   if (saved) {
@@ -79,8 +82,13 @@ void InflationFolder::begin(const Opening& solver, InflationState& state, Inflat
                               unwritten(2)),
       files_.open<InflationFrame>(
           "balance.csv", static_cast<std::size_t>(state.blocks * frames / solver.blocks()), unwritten(1)),
+      {},
       {}};
   if (with_air_) history.air = files_.open<AirRow>("air.csv", static_cast<std::size_t>(state.air.steps));
+  if (with_bodies_)
+    history.bodies =
+        files_.open<OpeningBodyRow>("bodies.csv", static_cast<std::size_t>(state.air.steps) *
+                                                      (solver.problem().air->flow.bodies.size() - 1));
   files_.check();
   if (!saved) write_start(solver, state);
   next_.begin(solver, state, history);
@@ -103,6 +111,7 @@ void InflationFolder::save(const Opening& solver, const InflationState& state,
   files_.add("history.csv", history.rows);
   files_.add("balance.csv", history.frames);
   if (with_air_) files_.add("air.csv", history.air);
+  if (with_bodies_) files_.add("bodies.csv", history.bodies);
   files_.save(to_bytes(state), solver.air());
 }
 
@@ -121,6 +130,7 @@ void InflationFolder::ended(const Opening& solver, const InflationState& state,
     return settings.duration_s * static_cast<double>(frame) / settings.frames;
   };
   for (const char* what : {"canopy", "lines"}) write_frames(folder_, what, 0, settings.frames, time);
+  if (with_bodies_) write_bodies(solver);
   if (with_air_)
     write_frames(folder_, "air", 1, settings.frames, time, air_ending(solver.problem().air->flow.grid));
   if (keep_end_ && with_air_ && solver.problem().air->payload)
@@ -182,6 +192,12 @@ void InflationFolder::write_load(const Opening& solver, const std::vector<Histor
   CsvTable table{{"time_s", "load_n"}, {}};
   for (std::size_t i = 0; i < rows.size(); ++i) table.rows.push_back({rows[i].time, smooth[i]});
   folder_.write("history_low_pass.csv", table);
+}
+
+void InflationFolder::write_bodies(const Opening& solver) const {
+  const std::vector<FlowBody>& bodies = solver.problem().air->flow.bodies;
+  for (std::size_t n = 1; n < bodies.size(); ++n)
+    write_stl(folder_.own(fmt::format("body-{}.stl", bodies[n].name)), bodies[n].surface);
 }
 
 void InflationFolder::write_shapes(const Opening& solver, const InflationState& state,

@@ -9,7 +9,7 @@
 
 #include "ripstop/canopy/shape.h"
 #include "ripstop/case/assemble.h"
-#include "ripstop/case/bodies.h"
+#include "ripstop/case/cluster.h"
 #include "ripstop/case/resolve.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/quantity.h"
@@ -27,6 +27,9 @@ constexpr double half_box = 4.5, box_before = 4, box_behind = 6;
 constexpr double core_margin = 0.35, core_wake = 1;
 constexpr double cell_growth = 1.2;
 
+// As for the default domain of a case with bodies, in units of the widest one.
+constexpr double before_bodies = 4, core_before_bodies = 0.5;
+
 constexpr double significant = 2;  // standard errors
 
 Attitude attitude_in(Vec3 wind) {
@@ -38,13 +41,14 @@ struct Mean {
   std::optional<double> error;
 };
 
-/// Of one coefficient over the steps of a record, without its start-up.
-Mean mean_of(const FlowRecord& record, const std::vector<Coefficients>& steps, double Coefficients::*which) {
+/// Of one number of every step of a record, without its start-up.
+template <class Number>
+Mean mean_of(const FlowRecord& record, const Number& number) {
   Record values;
   values.begin = record.steps.front().time - record.steps.front().length;
-  for (std::size_t n = 0; n < steps.size(); ++n) {
+  for (std::size_t n = 0; n < record.steps.size(); ++n) {
     values.until.push_back(record.steps[n].time);
-    values.values.push_back(steps[n].*which);
+    values.values.push_back(number(n));
   }
   const MeanOverTime mean = mean_over_time(values, values.begin + record.start_up);
   Mean result{mean.mean, std::nullopt};
@@ -52,12 +56,31 @@ Mean mean_of(const FlowRecord& record, const std::vector<Coefficients>& steps, d
   return result;
 }
 
+Vec3 mean_vector(const FlowRecord& record, std::size_t body, Vec3 BodyLoad::*which) {
+  const auto along = [&](double Vec3::*axis) {
+    return mean_of(record, [&](std::size_t n) { return record.steps[n].bodies.at(body).*which.*axis; }).value;
+  };
+  return {along(&Vec3::x), along(&Vec3::y), along(&Vec3::z)};
+}
+
+/// `load_on(n)` for each rigid body n; nothing without any.
+template <class LoadOn>
+std::optional<std::vector<StabilityBody>> rigid_loads(const FlowProblem& problem, const LoadOn& load_on) {
+  if (problem.bodies.size() < 2) return {};
+  std::vector<StabilityBody> loads;
+  for (std::size_t n = 1; n < problem.bodies.size(); ++n) {
+    loads.push_back(load_on(n));
+    loads.back().name = problem.bodies[n].name;
+  }
+  return loads;
+}
+
 [[noreturn]] void refuse(const std::string& why) {
   throw Error(ExitCode::usage, why);
 }
 
 void check_flow(const Settings& resolved) {
-  require_canopy_alone(resolved, "stability");
+  require_one_canopy(resolved, "stability");
   const FlowSettings& flow = resolved.flow();
   const char* flow_needed = "an angle of attack needs an unbounded stream";
   if (flow.tunnel.kind != TunnelKind::free_air)
@@ -167,11 +190,40 @@ CanopyMesh restrained_mesh(const Settings& resolved, const SteadyState& state) {
   return mesh;
 }
 
+namespace {
+
+/// Of the rigid bodies of a flow, which come after the canopy.
+struct BodyExtent {
+  Extent all;
+  double width = 0;  // of the widest one [m]
+};
+
+BodyExtent extent_of_bodies(const FlowProblem& problem) {
+  BodyExtent bodies;
+  for (std::size_t n = 1; n < problem.bodies.size(); ++n) {
+    const Extent e = extent_of(problem.bodies[n].surface);
+    bodies.all.add(e.lower()), bodies.all.add(e.upper());
+    bodies.width = std::max({bodies.width, e.high[0] - e.low[0], e.high[1] - e.low[1]});
+  }
+  return bodies;
+}
+
+/// The smallest box about both.
+Extent joined(Extent a, const Extent& b) {
+  a.add(b.lower()), a.add(b.upper());
+  return a;
+}
+
+}  // namespace
+
 FlowProblem stability_flow(const Settings& at_angle, const RigidCanopy& canopy, int across, double widest) {
   FlowProblem problem = flow_problem(at_angle);
-  const Extent e = extent_of(canopy.surface);
-  const Vec3 size = e.upper() - e.lower(), middle = 0.5 * (e.lower() + e.upper());
+  const Extent of_canopy = extent_of(canopy.surface);
+  const Vec3 size = of_canopy.upper() - of_canopy.lower(),
+             middle = 0.5 * (of_canopy.lower() + of_canopy.upper());
   const double width = std::max(size.x, size.y), h = canopy.width / across;
+  const BodyExtent bodies = extent_of_bodies(problem);
+  const Extent e = bodies.width > 0 ? joined(of_canopy, bodies.all) : of_canopy;
   const Vec3 wind = wind_direction(std::min(widest, 90.0), at_angle.flow().azimuth_deg);
   const double wake = core_wake * width;
   const auto shifted = [&](double low, double high, double towards) {
@@ -183,9 +235,15 @@ FlowProblem stability_flow(const Settings& at_angle, const RigidCanopy& canopy, 
   const auto [z0, z1] = shifted(e.low[2], e.high[2], 1);
   // No two sides of the canopy lie alike on the cells: docs/theory/flow-cartesian.md.
   const Vec3 off = in_time_off_axis * h * Vec3{1, 0.5, 0};
-  const Vec3 low = Vec3{x0, y0, z0} + off, high = Vec3{x1, y1, z1} + off;
-  const Vec3 corner = middle - width * Vec3{half_box, half_box, box_before},
-             far = middle + width * Vec3{half_box, half_box, box_behind};
+  Vec3 low = Vec3{x0, y0, z0} + off;
+  const Vec3 high = Vec3{x1, y1, z1} + off;
+  Vec3 corner = middle - width * Vec3{half_box, half_box, box_before};
+  const Vec3 far = middle + width * Vec3{half_box, half_box, box_behind};
+  if (bodies.width > 0) {
+    const double front = bodies.all.low[2];
+    low.z = std::min(low.z, front - core_before_bodies * bodies.width);
+    corner.z = std::min(corner.z, front - before_bodies * bodies.width);
+  }
   const auto cells = [&](double from, double core_from, double core_to, double to) {
     return static_cast<int>(std::lround((core_to - core_from) / h)) +
            cells_outside(h, core_from - from, cell_growth) + cells_outside(h, to - core_to, cell_growth);
@@ -275,16 +333,16 @@ void turn_stream(Flow& flow, Vec3 from, Vec3 to, double length, double courant) 
   flow.stream(to, {});
 }
 
-StabilityRow row_of_record(const FlowRecord& record, const Freestream& air, double angle,
+StabilityRow row_of_record(const FlowRecord& record, const FlowProblem& problem, double angle,
                            const Reference& reference) {
-  const Attitude attitude = attitude_in(air.velocity);
+  const Attitude attitude = attitude_in(problem.air.velocity);
   std::vector<Coefficients> steps;
   for (const FlowStep& step : record.steps)
     steps.push_back(coefficients(step.bodies.at(0), attitude, reference));
   StabilityRow row;
   row.angle = angle;
   const auto take = [&](double Coefficients::*which, double& value, std::optional<double>& error) {
-    const Mean mean = mean_of(record, steps, which);
+    const Mean mean = mean_of(record, [&](std::size_t n) { return steps[n].*which; });
     value = mean.value, error = mean.error;
   };
   take(&Coefficients::tangential, row.c_t, row.c_t_error);
@@ -297,18 +355,32 @@ StabilityRow row_of_record(const FlowRecord& record, const Freestream& air, doub
   row.steps = static_cast<int>(record.steps.size());
   row.enough = record.enough;
   row.mass_defect = record.largest_mass_defect();
+  row.bodies = rigid_loads(problem, [&](std::size_t body) {
+    const Mean drag = mean_of(record, [&](std::size_t n) {
+      return dot(record.steps[n].bodies.at(body).force, problem.air.direction());
+    });
+    return StabilityBody{{},
+                         drag.value,
+                         drag.error,
+                         mean_vector(record, body, &BodyLoad::force),
+                         mean_vector(record, body, &BodyLoad::moment)};
+  });
   return row;
 }
 
-StabilityRow row_of_field(const FlowField& field, const Freestream& air, double angle,
+StabilityRow row_of_field(const FlowField& field, const FlowProblem& problem, double angle,
                           const Reference& reference) {
-  const Coefficients c = coefficients(field.bodies.at(0), attitude_in(air.velocity), reference);
+  const Coefficients c = coefficients(field.bodies.at(0), attitude_in(problem.air.velocity), reference);
   StabilityRow row;
   row.angle = angle;
   row.c_t = c.tangential, row.c_n = c.normal, row.c_m = c.moment;
   row.c_d = c.drag, row.c_l = c.lift, row.c_y = c.side;
   row.steps = field.last.iteration;
   row.enough = field.converged;
+  row.bodies = rigid_loads(problem, [&](std::size_t body) {
+    const BodyLoad& load = field.bodies.at(body);
+    return StabilityBody{{}, dot(load.force, problem.air.direction()), {}, load.force, load.moment};
+  });
   return row;
 }
 

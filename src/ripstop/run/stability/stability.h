@@ -53,6 +53,23 @@ FlowProblem stability_flow(const Settings& at_angle, const RigidCanopy& canopy, 
 /// Reference quantities of coefficients: density, S0 and D0.
 Reference stability_reference(const Settings& resolved);
 
+/// Mean loads on a rigid body of the case at one angle.
+struct StabilityBody {
+  std::string name;
+  double drag = 0;                       // along the stream [N]
+  std::optional<double> standard_error;  // of it; absent where the flow is steady [N]
+  Vec3 force;                            // in the axes of the canopy, z from the confluence to the canopy [N]
+  Vec3 moment;                           // about the middle of its aft end, likewise [N m]
+};
+template <Of<StabilityBody> T, class Visit>
+void each_member(T& b, Visit&& visit) {
+  visit("name", b.name);
+  visit("drag_n", b.drag);
+  visit("drag_standard_error_n", b.standard_error, or_null);
+  visit("force_n", b.force);
+  visit("moment_n_m", b.moment);
+}
+
 /// The numbers of one angle. Coefficients refer to S0 and D0, the moment is about the confluence. A standard error is
 /// absent where the flow is steady.
 struct StabilityRow {
@@ -65,6 +82,7 @@ struct StabilityRow {
   int steps = 0;                      // in time, or iterations
   bool enough = false;                // the standard error of the drag, or the residual, was reached
   std::optional<double> mass_defect;  // of a flow in time: largest of a step after the start-up
+  std::optional<std::vector<StabilityBody>> bodies;  // of a case with rigid bodies
 };
 template <Of<StabilityRow> T, class Visit>
 void each_member(T& r, Visit&& visit) {
@@ -86,6 +104,7 @@ void each_member(T& r, Visit&& visit) {
   visit("steps", r.steps);
   visit("enough", r.enough);
   visit("mass_defect", r.mass_defect, or_null);
+  visit("bodies", r.bodies);
 }
 
 /// An angle at which C_m = 0.
@@ -146,12 +165,12 @@ std::string to_json(const StabilityResult& result);
 /// velocity changes in the far field and, as in a frame that accelerates, in all of the air.
 void turn_stream(Flow& flow, Vec3 from, Vec3 to, double length, double courant);
 
-/// One angle [degrees] from an averaging window: means of the coefficients of the canopy, which is the first body,
-/// without the start-up.
-StabilityRow row_of_record(const FlowRecord& record, const Freestream& air, double angle,
+/// One angle [degrees] from an averaging window: means of the coefficients of the canopy, which is the first body, and
+/// of the loads on the others, without the start-up.
+StabilityRow row_of_record(const FlowRecord& record, const FlowProblem& problem, double angle,
                            const Reference& reference);
 /// The same from a steady flow.
-StabilityRow row_of_field(const FlowField& field, const Freestream& air, double angle,
+StabilityRow row_of_field(const FlowField& field, const FlowProblem& problem, double angle,
                           const Reference& reference);
 
 }  // namespace ripstop::inline run

@@ -47,7 +47,7 @@ constexpr int pieces_of_mean = 8;
 constexpr double usual_windows = 4;  // of an angle in equilibrium, for the remaining time
 
 std::string watch_text(const WatchProgress& p, const Freestream& air) {
-  const double drag = dot(p.step.force, air.direction());
+  const double drag = dot(p.step.force - force_on_others(p.step.bodies), air.direction());
   return p.mean != 0 ? fmt::format("drag {:.2f} N, mean {:.2f} +- {:.2g} N", drag, p.mean, p.standard_error)
                      : fmt::format("drag {:.2f} N, start-up", drag);
 }
@@ -256,16 +256,16 @@ StabilityRow Curve::rigid_in_time(std::size_t i, ClaimedFolder& folder, FlowEngi
   checkpoint.remove();
   write_angle_history(folder, record);
   save_checkpoint(folder.own("checkpoint/"), {}, *flow);
-  return row_of_record(record, problem.air, angles_[i], stability_reference(cases_[i]));
+  return row_of_record(record, problem, angles_[i], stability_reference(cases_[i]));
 }
 
 StabilityRow Curve::equilibrium_in_time(std::size_t i, ClaimedFolder& folder, FlowEngine& engine,
                                         StabilityObserver& observer) {
   const Settings& resolved = cases_[i];
-  SteadyProblem problem{restrained_mesh(settings_of_run(axis_folder()), shape_), flow_at(i),
+  const FlowProblem flow = flow_at(i);
+  SteadyProblem problem{restrained_mesh(settings_of_run(axis_folder()), shape_), flow,
                         nominal_area(resolved.parachute()), resolved.coupling(), window(i)};
   problem.settings.threads = threads(i);
-  const Freestream air = problem.flow.air;
   SteadySolver solver(std::move(problem), engine);
   SteadyState state = solver.start();
   state.shape = shape_.shape, state.pressure = shape_.pressure;
@@ -283,7 +283,7 @@ StabilityRow Curve::equilibrium_in_time(std::size_t i, ClaimedFolder& folder, Fl
     solver.iterate(state, [&](const SteadyProgress& p) {
       observer.progress(i,
                         p.stage == SteadyStage::time
-                            ? fmt::format("[{}] {}", p.iteration, watch_text(p.time, air))
+                            ? fmt::format("[{}] {}", p.iteration, watch_text(p.time, flow.air))
                             : fmt::format("[{}] cloth {:.1e}", p.iteration, p.cloth.residual),
                         (p.iteration - 1 + p.time.share) / usual_windows);
     });
@@ -293,7 +293,7 @@ StabilityRow Curve::equilibrium_in_time(std::size_t i, ClaimedFolder& folder, Fl
   write_angle_history(folder, solver.record());
   write_stl(folder.own("canopy.stl"), surface_of(solver.cells(), state.shape));
   save_checkpoint(folder.own("checkpoint/"), state, solver.flow());
-  StabilityRow row = row_of_record(solver.record(), air, angles_[i], stability_reference(resolved));
+  StabilityRow row = row_of_record(solver.record(), flow, angles_[i], stability_reference(resolved));
   row.enough = row.enough && state.converged;
   return row;
 }
@@ -310,7 +310,7 @@ StabilityRow Curve::at_rest(std::size_t i, FlowEngine& engine, StabilityObserver
         double(p.iteration) / stopping.max_iterations);
     return true;
   });
-  return row_of_field(field, problem.air, angles_[i], stability_reference(cases_[i]));
+  return row_of_field(field, problem, angles_[i], stability_reference(cases_[i]));
 }
 
 StabilityRow Curve::run_angle(std::size_t i, StabilityObserver& observer) {
@@ -348,6 +348,7 @@ void Curve::take_results() {
   take_trims(result_);
   Judgement judgement = judge({{"cells_across", double(result_.cells_across)}});
   judgement.add(air_warnings(cases_.front()));
+  judgement.add(body_warnings(cases_.front(), flow_at(0).grid, in_time(), "increase --cells-across"));
   for (const StabilityRow& row : result_.rows) {
     if (!row.mass_defect) continue;
     const Judgement of_row = judge({{"mass_defect", *row.mass_defect}});

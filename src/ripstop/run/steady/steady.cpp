@@ -77,8 +77,15 @@ std::vector<BodyResult> body_results(const std::vector<FlowBody>& bodies, const 
     const Vec3 force = state.body_forces[n];
     const double area =
         resolved.written().bodies.at(body.name).reference_area_m2.value_or(frontal_area(body.surface));
-    results.push_back({body.name, force.z, std::hypot(force.x, force.y), state.body_moments[n], area,
-                       force.z / (dynamic_pressure(resolved) * area)});
+    results.push_back({body.name,
+                       force.z,
+                       std::hypot(force.x, force.y),
+                       state.body_moments[n],
+                       area,
+                       force.z / (dynamic_pressure(resolved) * area),
+                       {}});
+    if (n < state.body_errors.size() && std::isfinite(state.body_errors[n]))
+      results.back().standard_error = state.body_errors[n];
   }
   return results;
 }

@@ -87,6 +87,7 @@ struct BodyResult {
   double drag = 0, side = 0;                        // along the stream and across it [N]
   Vec3 moment;                                      // about the middle of its aft end [N m]
   double reference_area = 0, drag_coefficient = 0;  // [m2], -
+  std::optional<double> standard_error;             // of the mean drag of an unsteady run [N]
 };
 template <Of<BodyResult> T, class Visit>
 void each_member(T& b, Visit&& visit) {
@@ -96,6 +97,7 @@ void each_member(T& b, Visit&& visit) {
   visit("moment_n_m", b.moment);
   visit("reference_area_m2", b.reference_area);
   visit("drag_coefficient", b.drag_coefficient);
+  visit("drag_standard_error_n", b.standard_error);
 }
 /// Loads on one canopy of a cluster.
 struct ClusterCanopy {

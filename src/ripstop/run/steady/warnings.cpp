@@ -48,32 +48,34 @@ std::vector<std::string> grid_warnings(const Settings& resolved) {
                   cells, meaning)};
 }
 
-namespace {
-
-/// Rigid bodies have larger errors than canopies, and need cells.
-std::vector<std::string> body_warnings(const Settings& resolved) {
+std::vector<std::string> body_warnings(const Settings& resolved, const FlowGrid& grid, bool in_time,
+                                       const char* finer) {
   constexpr double enough = 8;  // cells
-  const FlowGrid grid = flow_grid(resolved.flow());
   std::vector<std::string> warnings;
   for (const FlowBody& body : rigid_bodies(resolved)) {
-    warnings.push_back(fmt::format(
-        "body.{}: rigid bodies are experimental; alone in the stream the drag of round and long bodies was "
-        "1.1 to 3.7 times the published value (docs/guide/wake.md), and the loss of drag behind them follows "
-        "it",
-        body.name));
+    warnings.push_back(
+        in_time
+            ? fmt::format("body.{}: rigid bodies are experimental; alone in the unsteady stream the drag of "
+                          "bodies with a flat front was 1.0 to 1.12 times the published value, of round ones "
+                          "1.3 to 2.1 times (docs/guide/wake.md)",
+                          body.name)
+            : fmt::format("body.{}: the steady drag of round and long bodies alone in the stream was 1.1 to "
+                          "3.7 times the published value, and the loss of drag behind them follows it; use "
+                          "--unsteady or flow.unsteady = true (docs/guide/wake.md)",
+                          body.name));
     const Extent e = extent_of(body.surface);
     const double cell = grid.width(0, grid.cell_at(0, 0.5 * (e.low[0] + e.high[0])));
     const double across = std::min(e.high[0] - e.low[0], e.high[1] - e.low[1]) / cell;
     if (across < (1 - 1e-9) * enough) {
       const auto [cells, least] = rounded_apart(across, enough, 2);
-      warnings.push_back(
-          fmt::format("body.{}: {} flow cells across, at least {} are needed; increase flow.cells, or narrow "
-                      "flow.core.size_m",
-                      body.name, cells, least));
+      warnings.push_back(fmt::format("body.{}: {} flow cells across, at least {} are needed; {}", body.name,
+                                     cells, least, finer));
     }
   }
   return warnings;
 }
+
+namespace {
 
 constexpr double open_cfm =
     10;  // tighter cloth changes by less than 40 % from 124.5 to 1000 Pa (assumed b / a)
@@ -196,7 +198,10 @@ Warnings joined(const std::vector<Warnings>& parts) {
 }
 
 Warnings flow_warnings(const Settings& resolved) {
-  return joined({grid_warnings(resolved), body_warnings(resolved), air_warnings(resolved)});
+  return joined({grid_warnings(resolved),
+                 body_warnings(resolved, flow_grid(resolved.flow()), resolved.flow().unsteady,
+                               "increase flow.cells, or narrow flow.core.size_m"),
+                 air_warnings(resolved)});
 }
 
 }  // namespace

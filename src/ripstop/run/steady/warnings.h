@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "ripstop/case/settings.h"
+#include "ripstop/flow/flow_grid.h"
 
 namespace ripstop::inline run {
 
@@ -18,6 +19,10 @@ std::vector<std::string> porosity_warnings(const Settings& resolved);
 std::vector<std::string> range_warnings(const Settings& resolved);
 /// Of the air about a canopy in any command: the two above, and the pressure on open cloth.
 std::vector<std::string> air_warnings(const Settings& resolved);
+/// Of rigid bodies in a flow on these cells: their errors, and fewer than 8 cells across, with the remedy `finer`.
+/// `in_time`: the flow is unsteady.
+std::vector<std::string> body_warnings(const Settings& resolved, const FlowGrid& grid, bool in_time,
+                                       const char* finer);
 /// Of a profile whose apex is pulled down.
 std::vector<std::string> shape_warnings(const Settings& resolved);
 /// Of the materials: see material_warnings().
