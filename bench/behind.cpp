@@ -56,7 +56,7 @@ Drag drag_of(FlowProblem problem, double length, const std::vector<double>& area
   const auto engine = make_cartesian(settings);
   const auto flow = engine->start(problem);
   Watch how;
-  how.length = length, how.standard_error = 0.005, how.shortest = 40, how.longest = 90;
+  how.length = length, how.standard_error = 0.01, how.shortest = 40, how.longest = 80;
   FlowRecord record;
   Drag drag;
   drag.mean = watch(*flow, problem, how, record);

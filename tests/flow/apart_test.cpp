@@ -36,6 +36,8 @@ TEST(Apart, ACanopyThatIntersectsABodyOrIsInItIsRefusedWithItsName) {
     return refusal_of([&] { require_apart(canopy, bodies); }, ExitCode::usage);
   };
   EXPECT_NE(why(disk(3, {0, 0, -0.5})).find("touches the body \"rocket\""), std::string::npos);
+  EXPECT_NE(why(square_plate(3, {0, 0, -0.5})).find("touches the body \"rocket\""), std::string::npos)
+      << "no corner of its triangles is in the body";
   EXPECT_NE(why(disk(0.3, {0, 0, -0.5})).find("touches the body \"rocket\""), std::string::npos) << "inside";
 }
 
