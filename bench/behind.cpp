@@ -1,6 +1,7 @@
 // Drag of a solid disk behind a blunt cylinder over the trailing distance, and of two disks side by side, in time.
 //
-// bench_behind CELLS wake|pair   cells across the cylinder, or across a disk of the pair
+// bench_behind CELLS wake|pair [DISTANCE...]   cells across the cylinder, or across a disk of the pair; distances in
+// diameters, of the disk from the cylinder or between the centres of the pair
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -56,7 +57,7 @@ Drag drag_of(FlowProblem problem, double length, const std::vector<double>& area
   const auto engine = make_cartesian(settings);
   const auto flow = engine->start(problem);
   Watch how;
-  how.length = length, how.standard_error = 0.01, how.shortest = 40, how.longest = 80;
+  how.length = length, how.standard_error = 0.015, how.shortest = 25, how.longest = 60;
   FlowRecord record;
   Drag drag;
   drag.mean = watch(*flow, problem, how, record);
@@ -90,10 +91,9 @@ double wake_pressure(const FlowField& mean, Vec3 centre, double diameter) {
 constexpr double disk_diameter = 2, body_length = 2;  // in diameters of the body
 
 // The disk is at z = 0 on the same cells in every run; the body is upstream of it.
-void behind_cylinder(int across) {
-  const std::vector<double> distances = {2, 4, 6, 8, 12};
-  const double farthest = distances.back() + body_length;
-  const FlowProblem empty = problem_with({-1.35, -1.35, -farthest - 0.5}, {1.35, 1.35, 2}, across, 5, 4, 10);
+void behind_cylinder(int across, const std::vector<double>& distances) {
+  const double last = *std::max_element(distances.begin(), distances.end()), farthest = last + body_length;
+  const FlowProblem empty = problem_with({-1.35, -1.35, -farthest - 0.5}, {1.35, 1.35, 2}, across, 5, 3, 8);
   const auto cylinder = [](double distance) {
     return sheet_body(nosed_cylinder(1, body_length, 0, {0, 0, -distance}), impermeable, "cylinder");
   };
@@ -101,7 +101,7 @@ void behind_cylinder(int across) {
   FlowProblem problem = empty;
   problem.bodies = {sheet_body(disk(disk_diameter, {}), impermeable, "disk")};
   const Drag alone = drag_of(problem, disk_diameter, {area}, across);
-  problem.bodies = {cylinder(distances.back())};
+  problem.bodies = {cylinder(last)};
   const Drag body = drag_of(problem, disk_diameter, {circle}, across);
   print_row({"alone", fmt::format("{:.3f} ± {:.3f}", alone.coefficient[0], alone.error[0]), "1", "1",
              fmt::format("{:.3f} ± {:.3f}", body.coefficient[0], body.error[0])});
@@ -111,7 +111,7 @@ void behind_cylinder(int across) {
     const double ratio = both.coefficient[0] / alone.coefficient[0];
     const double error =
         ratio * std::hypot(both.error[0] / both.coefficient[0], alone.error[0] / alone.coefficient[0]);
-    const Vec3 place{0.25 / across, 0.125 / across, distance - distances.back()};
+    const Vec3 place{0.25 / across, 0.125 / across, distance - last};
     print_row({fmt::format("{:g}", distance),
                fmt::format("{:.3f} ± {:.3f}", both.coefficient[0], both.error[0]),
                fmt::format("{:.3f} ± {:.3f}", ratio, error),
@@ -121,10 +121,9 @@ void behind_cylinder(int across) {
 }
 
 // Both on the same cells in every run, the first always in the same place.
-void side_by_side(int across) {
-  const std::vector<double> distances = {1.1, 1.25, 1.5, 2, 3, 6};  // of the centres, in diameters
-  const FlowProblem empty =
-      problem_with({-0.85, -0.85, -0.5}, {distances.back() + 0.85, 0.85, 2}, across, 5, 4, 10);
+void side_by_side(int across, const std::vector<double>& distances) {
+  const double last = *std::max_element(distances.begin(), distances.end());
+  const FlowProblem empty = problem_with({-0.85, -0.85, -0.5}, {last + 0.85, 0.85, 2}, across, 5, 3, 8);
   FlowProblem problem = empty;
   problem.bodies = {sheet_body(disk(1, {}), impermeable, "first")};
   const Drag alone = drag_of(problem, 1, {circle}, across);
@@ -149,23 +148,29 @@ void side_by_side(int across) {
 
 int main(int argc, char** argv) {
   using namespace ripstop;
-  const std::string what = argc == 3 ? argv[2] : "";
-  const int across = argc == 3 ? std::atoi(argv[1]) : 0;
-  if (across < 4 || (what != "wake" && what != "pair"))
-    return fmt::print("bench_behind CELLS wake|pair\n"), 2;
-  if (what == "wake") {
+  const std::string what = argc > 2 ? argv[2] : "";
+  const int across = argc > 2 ? std::atoi(argv[1]) : 0;
+  std::vector<double> distances;
+  for (int n = 3; n < argc; ++n) distances.push_back(std::atof(argv[n]));
+  const bool wake = what == "wake";
+  if (across < 4 || (!wake && what != "pair") ||
+      std::any_of(distances.begin(), distances.end(), [&](double d) { return !(d > (wake ? 0 : 1)); }))
+    return fmt::print("bench_behind CELLS wake|pair [DISTANCE...]\n"), 2;
+  if (distances.empty())
+    distances = wake ? std::vector<double>{2, 4, 6, 8, 12} : std::vector<double>{1.1, 1.25, 1.5, 2, 3, 6};
+  if (wake) {
     print_table_head(
         fmt::format("Disk of 2 diameters behind a cylinder 2 diameters long, {} cells across it, unsteady",
                     across),
         argc, argv,
         {"distance / diameter", "C_D of the disk", "drag ratio", "mean of (u/U)² in the wake alone",
          "C_D of the cylinder"});
-    behind_cylinder(across);
+    behind_cylinder(across, distances);
   } else {
     print_table_head(fmt::format("Two disks side by side, {} cells across each, unsteady", across), argc,
                      argv,
                      {"distance of the centres / diameter", "C_D of the first", "C_D of the second",
                       "mean over that of one alone"});
-    side_by_side(across);
+    side_by_side(across, distances);
   }
 }

@@ -114,6 +114,21 @@ FlowRecord watched_record(int steps, int slices) {
   return record;
 }
 
+TEST(WatchFiles, HistoryIsThatOfTheCanopyWithoutRigidBodies) {
+  const TemporaryFolder root("watch-files");
+  ClaimedFolder claimed(root.path / "run");
+  FlowRecord record = watched_record(5, 0);
+  for (FlowStep& step : record.steps) {
+    step.bodies = {{step.force, {}}, {{1, 2, 30}, {}}};
+    step.force += step.bodies[1].force;
+  }
+  write_watch(claimed, resolve(checked(flat_circular_case(1, 600, 20))), record);
+  const CsvTable history = read_csv(root.path / "run/history.csv");
+  for (std::size_t n = 0; n < 5; ++n)
+    EXPECT_NEAR(history.column("drag_n")[n], record.steps[n].bodies[0].force.z, 1e-9);
+  EXPECT_NEAR(history_plot("", record).series[0].y[0], record.steps[0].bodies[0].force.z, 1e-9);
+}
+
 TEST(WatchFiles, HistoryHasARowAStepAndTheWakeAFileASlice) {
   const TemporaryFolder root("watch-files");
   ClaimedFolder claimed(root.path / "run");

@@ -17,11 +17,18 @@ namespace {
 constexpr std::size_t most_plotted = 2000;  // of a line in the plot
 constexpr std::size_t shots = 6;            // in the picture
 
+/// Of the air on the canopy [N].
+Vec3 on_canopy(const FlowStep& step) {
+  return step.force - force_on_others(step.bodies);
+}
+
 void write_history(ClaimedFolder& folder, const FlowRecord& record) {
   CsvTable table{{"time_s", "step_s", "courant", "force_x_n", "force_y_n", "drag_n", "momentum_gap_n"}, {}};
-  for (const FlowStep& step : record.steps)
-    table.rows.push_back({step.time, step.length, step.courant, step.force.x, step.force.y, step.force.z,
-                          step.momentum_gap.z});
+  for (const FlowStep& step : record.steps) {
+    const Vec3 force = on_canopy(step);
+    table.rows.push_back(
+        {step.time, step.length, step.courant, force.x, force.y, force.z, step.momentum_gap.z});
+  }
   write_csv(folder.own("history.csv"), table);
 }
 
@@ -66,12 +73,13 @@ Plot history_plot(const std::string& title, const FlowRecord& record) {
   for (std::size_t n = 0; n < record.steps.size(); ++n) {
     const FlowStep& step = record.steps[n];
     const double time = step.time - begin;
-    if (time > record.start_up) sum += step.length * step.force.z, since += step.length;
+    const Vec3 force = on_canopy(step);
+    if (time > record.start_up) sum += step.length * force.z, since += step.length;
     if (n % every != 0) continue;
     const auto add = [&](int series, double value) {
       plot.series[series].x.push_back(time), plot.series[series].y.push_back(value);
     };
-    add(0, step.force.z), add(2, step.force.x), add(3, step.force.y);
+    add(0, force.z), add(2, force.x), add(3, force.y);
     if (since > 0) add(1, sum / since);
   }
   return plot;
