@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "ripstop/case/resolve.h"
+#include "ripstop/flow/flow.h"
 
 namespace ripstop::cli {
 namespace {
@@ -29,12 +30,13 @@ std::string progress_text(const SteadyProgress& p, double elapsed, double left) 
                : fmt::format("elapsed {}", duration_text(elapsed));
   if (p.stage == SteadyStage::time) {
     const FlowStep& step = p.time.step;
+    const double drag = step.force.z - force_on_others(step.bodies).z;
     const std::string mean =
         p.time.mean != 0 ? fmt::format("mean {:.1f} +- {:.2g} N, {:.0f} % of the averaging window",
                                        p.time.mean, p.time.standard_error, std::min(99.0, 100 * p.time.share))
                          : std::string("start-up");
     return fmt::format("[{}] time: {:.3f} s, step {} of {:.2g} s, drag {:.1f} N, {} | {}", iteration,
-                       step.time, step.step, step.length, step.force.z, mean, time);
+                       step.time, step.step, step.length, drag, mean, time);
   }
   if (p.stage == SteadyStage::cloth) {
     return fmt::format("[{}] cloth: step {}, residual {:.1e} | {}", iteration, p.cloth.steps,

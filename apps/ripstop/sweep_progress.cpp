@@ -12,6 +12,7 @@
 #include "number_option.h"
 #include "progress.h"
 #include "ripstop/core/error.h"
+#include "ripstop/flow/flow.h"
 #include "ripstop/run/run_folder.h"
 #include "ripstop/run/sweep/sweep_files.h"
 #include "stopping.h"
@@ -31,7 +32,8 @@ std::string short_text(const SteadyProgress& p) {
   const WatchProgress& t = p.time;
   return t.mean != 0 ? fmt::format("time {:.1f} +- {:.2g} N, {:.0f} %", t.mean, t.standard_error,
                                    std::min(99.0, 100 * t.share))
-                     : fmt::format("time {}, {:.1f} N", t.step.step, t.step.force.z);
+                     : fmt::format("time {}, {:.1f} N", t.step.step,
+                                   t.step.force.z - force_on_others(t.step.bodies).z);
 }
 
 }  // namespace
