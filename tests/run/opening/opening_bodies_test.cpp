@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -49,6 +50,10 @@ TEST(OpeningBodies, HaveLoadsOfTheirOwnInEveryStep) {
   EXPECT_GT(block.drag_coefficient, 0.5);
   EXPECT_LT(block.drag_coefficient, 3);
   EXPECT_NEAR(block.drag_coefficient, block.drag_area / 0.16, 1e-12);
+  const std::vector<std::string>& warnings = with.result.warnings.value();
+  EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const std::string& text) {
+    return text.find("body.block: rigid bodies are experimental") == 0;
+  }));
 }
 
 /// Without its bodies, on the same cells.
@@ -75,7 +80,7 @@ TEST(OpeningBodies, OneFarFromTheCanopyChangesItsLoadsLittle) {
   EXPECT_TRUE(alone.history.bodies.empty());
   EXPECT_FALSE(alone.result.bodies);
   const AirRow &row = with.history.air.back(), &of_alone = alone.history.air.back();
-  EXPECT_GT(with.history.bodies.back().drag, 0.05 * of_alone.drag);
+  EXPECT_GT(with.history.bodies.back().drag, 0.04 * of_alone.drag);
   EXPECT_NEAR(row.drag, of_alone.drag, 0.08 * of_alone.drag);
   EXPECT_NEAR(with.history.rows.back().mean, alone.history.rows.back().mean,
               0.08 * alone.history.rows.back().mean);

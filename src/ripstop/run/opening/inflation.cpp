@@ -252,6 +252,7 @@ void take_quality(InflationResult& r, const Settings& resolved, const Opening& s
         limit_of_damping(solver.problem().settings))});
   judgement.add(r.source.warnings);
   judgement.add(slow_opening_warnings(resolved, solver));
+  judgement.add(opening_body_warnings(resolved, solver));
   judgement.add(mesh_warnings(resolved));
   if (solver.air()) judgement.add(air_warnings(resolved));
   judgement.add(strain_warnings(resolved, r.stress.strain));
