@@ -86,7 +86,7 @@ TEST(OpeningBodies, OneFarFromTheCanopyChangesItsLoadsLittle) {
               0.08 * alone.history.rows.back().mean);
 }
 
-struct Killed : InflationObserver {
+struct KilledHalfway : InflationObserver {
   void advanced(const Opening& solver, const InflationState& state, const InflationHistory&,
                 const InflationFrame*) override {
     if (state.blocks == solver.blocks() / 2 + 1) throw std::runtime_error("killed");
@@ -104,7 +104,7 @@ TEST(OpeningBodies, AreInTheRunFolderAndAKilledRunResumesWithThemByteForByte) {
   };
   InflationObserver silent;
   open("whole", silent);
-  Killed killed;
+  KilledHalfway killed;
   EXPECT_THROW(open("killed", killed), std::runtime_error);
   open("killed", silent);
   for (const char* file : {"bodies.csv", "air.csv", "result.json"})
