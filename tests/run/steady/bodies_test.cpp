@@ -62,8 +62,8 @@ TEST(SteadyBodies, OfAnUnsteadyRunHaveAMeanDragWithItsStandardError) {
   block.shape = BoxKeys{{0.2, 0.2, 0.4}};
   block.trailing_distance_m = 0.6;
   given.flow.unsteady = true;
-  given.flow.watch.shortest = 5, given.flow.watch.longest = 10;
-  given.coupling.max_iterations = 2;
+  given.flow.watch.shortest = 15, given.flow.watch.longest = 45;
+  given.coupling.max_iterations = 4;
   const SteadyResult result = run_steady(checked(given), silent).result;
   ASSERT_TRUE(result.bodies && result.unsteady);
   const BodyResult& body = result.bodies->front();
