@@ -42,6 +42,32 @@ std::string with_error(std::optional<double> value, std::optional<double> error,
   return fmt::format("{:.{}f} +- {:.{}f}{}", *value, digits, *error, digits, unit);
 }
 
+void print_canopies(const FlightCluster& cluster) {
+  const auto row = print_row;
+  if (cluster.factor)
+    row("cluster factor", fmt::format("{:.3f}, C_D0 in descent over that of one canopy", *cluster.factor));
+  if (!cluster.motion) return;
+  const ClusterMotion& m = *cluster.motion;
+  row("spread angle",
+      fmt::format("{:.1f} deg in the mean, standard deviation {:.1f} deg; {:g} deg at the start",
+                  m.mean_spread, m.spread_deviation, cluster.first_spread));
+  for (std::size_t k = 0; k < m.canopies.size(); ++k) {
+    const CanopyMotion& canopy = m.canopies[k];
+    row(fmt::format("canopy {}", k + 1).c_str(),
+        fmt::format(
+            "spread angle {:.1f} deg, standard deviation {:.1f} deg; riser load {:.1f} N in the mean, "
+            "largest {:.1f} N at {:.2f} s",
+            canopy.mean_spread, canopy.spread_deviation, canopy.mean_load, canopy.largest_load,
+            canopy.largest_load_time));
+  }
+  row("smallest gap",
+      fmt::format("{:.3g} m at {:.2f} s{}", m.smallest_gap, m.smallest_gap_time,
+                  m.first_contact
+                      ? fmt::format("; contact (below {:.2g} m) for {:.2g} % of the time, first at {:.2f} s",
+                                    m.contact_gap, 100 * m.contact_share, *m.first_contact)
+                      : ", no contact"));
+}
+
 void print_flight(const FlightResult& r, const fs::path& folder, double wall_time) {
   const auto row = print_row;
   fmt::print("\n{}\n", r.title);
@@ -75,6 +101,7 @@ void print_flight(const FlightResult& r, const fs::path& folder, double wall_tim
     row("roundness", fmt::format("{:.2f} (0: oscillation in a plane, 1: conical)", *r.roundness));
   row("largest force of the lines",
       fmt::format("{:.1f} N, {:.2f} times the payload's weight", r.largest_load, r.load_factor));
+  if (r.cluster) print_canopies(*r.cluster);
   print_margins(r.margins);
   if (r.air_source) row("air", fmt::format("{:.4g} kg/m3 at the start ({})", r.density, *r.air_source));
   row("path", fmt::format("{:.1f} m down, {:.1f} m over the ground", r.height_lost, r.distance));
@@ -193,7 +220,9 @@ void add_fly(CLI::App& app, int& status) {
   command->footer(
       "The canopy starts in equilibrium on the axis, at the speed at which its drag equals the weight, and\n"
       "is released at an angle. With --deploy or --from the flight continues from the end of a coupled\n"
-      "inflation. Air, cloth and payload are stepped together in time.\n"
+      "inflation. Air, cloth and payload are stepped together in time. A case with [cluster] flies with all "
+      "of\n"
+      "its canopies.\n"
       "Example: ripstop fly examples/flat-circular/case.toml --mass 2.4 --duration 30 --cloth-nodes 2000");
   command->add_option("case", options->case_file, "Case file (TOML)")->required();
   add_key_option(*command, "--mass", "payload.mass_kg", "Mass of the payload, without the parachute [kg]",

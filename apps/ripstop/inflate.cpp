@@ -189,11 +189,31 @@ void print_steady_load(const InflationResult& r) {
                        : fmt::format("{:.3f}", *r.overshoot));
 }
 
+void print_openings(const ClusterOpening& cluster) {
+  const auto row = print_row;
+  for (std::size_t k = 0; k < cluster.canopies.size(); ++k) {
+    const CanopyOpening& canopy = cluster.canopies[k];
+    row(fmt::format("canopy {}", k + 1).c_str(),
+        fmt::format("peak riser load {:.1f} N at {:.1f} ms, {}; at the end {:.1f} N, spread angle {:.1f} deg",
+                    canopy.peak_load, 1000 * canopy.peak_time,
+                    canopy.filling_time ? fmt::format("filled at {:.1f} ms", 1000 * *canopy.filling_time)
+                                        : std::string("not filled"),
+                    canopy.last_load, canopy.last_spread));
+  }
+  row("time differences",
+      fmt::format("peaks {:.1f} ms{}; smallest gap {:.3g} m at {:.1f} ms", 1000 * cluster.peak_difference,
+                  cluster.filling_difference
+                      ? fmt::format(", filling {:.1f} ms", 1000 * *cluster.filling_difference)
+                      : std::string(),
+                  cluster.smallest_gap, 1000 * cluster.smallest_gap_time));
+}
+
 void print_result(const InflationResult& r, const fs::path& folder, double wall_time) {
   const auto row = print_row;
   print_text("\n{}\n", r.title);
   print_peaks(r);
   print_steady_load(r);
+  if (r.cluster) print_openings(*r.cluster);
   print_margins(r.margins);
   row("impulse", fmt::format("{:.3f} N s", r.impulse));
   for (const OpeningBody& body : r.bodies.value_or(std::vector<OpeningBody>()))

@@ -199,6 +199,26 @@ Flight.distance_m: horizontal distance over the ground
 Flight.energy_residual: residual of the energy balance, over the potential energy lost
 Flight.momentum_residual: residual of the momentum balance, over the impulse of the weight
 Flight.handover: state before and after the end of the inflation; None: without one
+Flight.cluster: motion of the canopies of a cluster; None: a single canopy
+FlightCluster.canopies: number of canopies
+FlightCluster.first_spread_angle_deg: spread angle at the start
+FlightCluster.cluster_factor: drag coefficient in descent over that of one canopy; None: not given
+FlightCluster.motion: means and extremes; None: the flight failed
+FlightCluster.pierced_edges: largest share of cloth edges that pierce cloth
+ClusterMotion.mean_spread_angle_deg: mean spread angle over canopies and time
+ClusterMotion.spread_angle_standard_deviation_deg: standard deviation over time of the mean over the canopies
+ClusterMotion.smallest_gap_m: smallest distance between cloth nodes of two canopies
+ClusterMotion.smallest_gap_time_s: time of the smallest gap
+ClusterMotion.contact_gap_m: distance of nodes below which canopies count as touching
+ClusterMotion.first_contact_s: time of the first contact of two canopies; None: no contact
+ClusterMotion.contact_time_share: share of the time with contact
+ClusterMotion.canopies: motion of each canopy
+CanopyMotion.mean_spread_angle_deg: mean angle between canopy and axis of the cluster, seen from the payload
+CanopyMotion.spread_angle_standard_deviation_deg: standard deviation of this angle over time
+CanopyMotion.mean_riser_load_n: mean riser load
+CanopyMotion.largest_riser_load_n: largest riser load at the end of a step of the flow
+CanopyMotion.largest_riser_load_time_s: time of this load
+CanopyMotion.mean_mouth_area_m2: mean area of the mouth
 FlightProgress.time_s: time of flight so far
 FlightProgress.duration_s: longest time of flight
 FlightProgress.rate_of_descent_m_s: present vertical speed of the payload, positive downwards

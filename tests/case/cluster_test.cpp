@@ -10,8 +10,10 @@
 #include "../small_case.h"
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/cost.h"
+#include "ripstop/case/flight_cells.h"
 #include "ripstop/case/flying.h"
 #include "ripstop/case/opening.h"
+#include "ripstop/case/payload.h"
 #include "ripstop/core/toml/problem.h"
 
 namespace ripstop {
@@ -98,7 +100,10 @@ TEST(ClusterCase, ImpossibleOnesAreRefusedWithTheirKey) {
   EXPECT_EQ(key_of([](Case& c) { c.cluster->canopies = 1; }), "cluster.canopies");
   EXPECT_EQ(key_of([](Case& c) { c.cluster->spread_angle_deg = 5; }), "cluster.spread_angle_deg");
   EXPECT_EQ(key_of([](Case& c) { c.flow.box_m = Vec3{2, 6, 6}; }), "flow.box_m[0]");
-  EXPECT_EQ(key_of([](Case& c) { c.payload.mass_kg = 5; }), "payload.mass_kg");
+  EXPECT_EQ(key_of([](Case& c) { c.payload.mass_kg = 5, c.cluster->equilibrium = true; }),
+            "cluster.equilibrium");
+  EXPECT_EQ(key_of([](Case& c) { c.cluster->widest_spread_angle_deg = 19; }),
+            "cluster.widest_spread_angle_deg");
   EXPECT_EQ(key_of([](Case& c) { c.bodies["box"].shape = BoxKeys{{0.1, 0.1, 0.1}}; }), "body.box");
 }
 
@@ -114,7 +119,7 @@ TEST(ClusterCase, CanopiesThatTouchAreRefusedWithTheAngleAndTheRiserThatSeparate
       << problems.front().message;
 }
 
-TEST(ClusterCase, AFlightAndAnOpeningComputeOneCanopy) {
+TEST(ClusterCase, AnOpeningComputesOneCanopy) {
   const Settings resolved = resolve(checked(cluster_case(3, 20)));
   const std::string opening = refusal_of(
       [&] {
@@ -122,8 +127,56 @@ TEST(ClusterCase, AFlightAndAnOpeningComputeOneCanopy) {
       },
       ExitCode::usage);
   EXPECT_EQ(opening,
-            "cluster.canopies = 3: an opening computes one canopy; only a steady run and a sweep compute a "
-            "cluster (remove the table, or --unset cluster)");
+            "cluster.canopies = 3: an opening computes one canopy; only a steady run, a sweep and a flight "
+            "compute a cluster (remove the table, or --unset cluster)");
+}
+
+TEST(ClusterCase, TheFineCellsOfAFlightContainTheCanopiesUpToTheWidestAngle) {
+  Case given = cluster_case(2, 20);
+  given.payload.mass_kg = 5;
+  EXPECT_NEAR(widest_in_flight(*given.cluster), 45, 1e-12);
+  given.cluster->widest_spread_angle_deg = 50;
+  const Settings flight = resolve(flight_case(checked(given)));
+  const FlowGrid grid = flow_grid(flight.flow());
+  EXPECT_NEAR(grid.spacing().x, 1.0 / given.flight.cells_across, 0.1 / given.flight.cells_across);
+  EXPECT_EQ(grid.nx, grid.ny) << "a cluster turns freely about its axis";
+  EXPECT_EQ(grid.nx % 4, 0);
+  const Settings at_widest = at_spread_angle(flight, 50);
+  const CanopyMesh mesh = flying_mesh(at_widest);
+  const double radius = 0.5 * inflated_diameter(flight.parachute());
+  for (int k = 0; k < 2; ++k) {
+    Vec3 skirt;
+    const std::vector<int> nodes = of_canopy(mesh.rigging.skirt_nodes, k, 2);
+    for (const int node : nodes) skirt += mesh.start[node] / double(nodes.size());
+    for (const double at : {skirt.x - radius, skirt.x + radius}) {
+      EXPECT_GT(at, grid.grading[0].core_low);
+      EXPECT_LT(at, grid.grading[0].core_high);
+    }
+    EXPECT_GT(skirt.z - radius, grid.grading[2].core_low);
+    EXPECT_LT(skirt.z + radius, grid.grading[2].core_high);
+  }
+}
+
+TEST(ClusterCase, AFlightOfAClusterIsRefusedFromAnInflationAndWithoutMemory) {
+  Case given = cluster_case(2, 20);
+  given.payload.mass_kg = 5;
+  given.flight.start = FlightSettings::Start::inflation;
+  EXPECT_NE(refusal_of([&] { flight_case(checked(given)); }, ExitCode::usage).find("leave out --deploy"),
+            std::string::npos);
+  EXPECT_NE(refusal_of([] { require_memory(1e18, "a flight", 4); }, ExitCode::resources)
+                .find("or canopies (cluster.canopies = 4)"),
+            std::string::npos);
+}
+
+TEST(ClusterCase, ThePayloadIsCarriedByAllCanopies) {
+  Case given = cluster_case(3, 20);
+  given.payload.mass_kg = 9;
+  given.flow.speed_m_s.reset();
+  const Settings many = resolve(checked(given));
+  given.payload.mass_kg = 3, given.cluster.reset();
+  const Settings one = resolve(checked(given));
+  EXPECT_NEAR(many.flow().speed_m_s, one.flow().speed_m_s, 1e-12);
+  EXPECT_NEAR(suspended_weight(many, 9), 3 * suspended_weight(one, 3), 1e-9);
 }
 
 }  // namespace

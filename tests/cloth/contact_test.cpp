@@ -54,6 +54,20 @@ std::vector<Vec3> folded_over(const Mesh& mesh, double apart) {
   return x;
 }
 
+// Sheets as cut one spacing apart are neighbours within one piece, but not as two pieces, such as two canopies.
+TEST(Contact, PiecesThatAreCutNextToEachOtherTouch) {
+  Mesh mesh = two_sheets(spacing);
+  const auto energy = [&] {
+    const ClothPtr cloth = make_cloth(mesh, with_contact(mesh));
+    ClothState state = start_state(*cloth);
+    set_positions(state, *cloth, lowered(mesh, 0.7 * spacing));
+    return contact_report(*cloth, state).energy;
+  };
+  EXPECT_EQ(energy(), 0);
+  mesh.patches[1].piece = 1;
+  EXPECT_GT(energy(), 0);
+}
+
 TEST(Contact, TheForceIsMinusTheGradientOfTheEnergy) {
   const Mesh mesh = two_sheets(5 * spacing);
   const ClothPtr touching = make_cloth(mesh, with_contact(mesh)), free = make_cloth(mesh);

@@ -105,6 +105,40 @@ TEST(Cluster, TheGapIsTwiceTheDistanceFromThePlaneBetweenNeighbours) {
             0);
 }
 
+TEST(Cluster, JoinedAtTheRisersHasOneFixedNodeWithTheMassOfAll) {
+  for (const double riser : {1.0, 0.0}) {
+    Case given = flat_circular_case(1, 500, 20);
+    given.parachute.riser.length_m = riser;
+    const CanopyMesh one = parachute_mesh(resolve(checked(given)));
+    const CanopyMesh all = Cluster(one, {3, 40 * one_degree}).mesh();
+    const JoinedCluster cluster = join_risers(all);
+    const CanopyMesh& mesh = cluster.mesh;
+    EXPECT_EQ(mesh.node_count(), all.node_count() - 2);
+    ASSERT_EQ(mesh.fixed.size(), 1u);
+    EXPECT_EQ(mesh.rigging.canopies, 3);
+    const auto sum = [](const std::vector<double>& mass) {
+      return std::accumulate(mass.begin(), mass.end(), 0.0);
+    };
+    EXPECT_NEAR(sum(mesh.mass), sum(all.mass), 1e-12);
+    EXPECT_NEAR(mesh.mass[mesh.fixed[0]], 3 * one.mass[one.fixed[0]], 1e-12);
+    // Springs, cells and skirts have the same ends in the same places.
+    for (std::size_t s = 0; s < all.springs.size(); ++s) {
+      EXPECT_LT(norm(mesh.start[mesh.springs[s].a] - all.start[all.springs[s].a]), 1e-12);
+      EXPECT_LT(norm(mesh.start[mesh.springs[s].b] - all.start[all.springs[s].b]), 1e-12);
+    }
+    const std::vector<Cell> cells = cells_of(mesh), before = cells_of(all);
+    ASSERT_EQ(cells.size(), before.size());
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      for (int k = 0; k < 4 && cells[c].corner[0] >= 0; ++k)
+        EXPECT_EQ(mesh.start[cells[c].corner[k]], all.start[before[c].corner[k]]);
+    EXPECT_LT(norm(skirt_centroid(mesh, mesh.start) - skirt_centroid(all, all.start)), 1e-12);
+    std::vector<Vec3> moved = all.start;
+    for (Vec3& p : moved) p.z += 1;
+    EXPECT_EQ(cluster.joined(moved)[mesh.fixed[0]].z, mesh.start[mesh.fixed[0]].z + 1);
+    EXPECT_EQ(mesh.patches.back().piece, 2);
+  }
+}
+
 TEST(Cluster, RefusesACanopyThatIsHeldAtSeveralPoints) {
   CanopyMesh one = small_canopy();
   one.fixed.push_back(0);

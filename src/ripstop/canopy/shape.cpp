@@ -67,6 +67,19 @@ CanopySize canopy_size(const CanopyMesh& mesh, const std::vector<Vec3>& x) {
   return size;
 }
 
+CanopySize mean_size(const CanopyMesh& one, const std::vector<std::vector<Vec3>>& canopies) {
+  CanopySize mean;
+  const double share = 1.0 / double(canopies.size());
+  for (const std::vector<Vec3>& x : canopies) {
+    const CanopySize size = canopy_size(one, x);
+    mean.projected_diameter += share * size.projected_diameter;
+    mean.projected_area += share * size.projected_area;
+    mean.skirt_diameter += share * size.skirt_diameter;
+    mean.length += share * size.length;
+  }
+  return mean;
+}
+
 double skirt_area(const CanopyMesh& mesh, const std::vector<Vec3>& x) {
   const std::vector<int>& skirt = mesh.rigging.skirt_nodes;
   double area = 0;

@@ -18,6 +18,8 @@ struct CanopySize {
   double length = 0;  // from the skirt's mean plane to the farthest cloth downstream [m]
 };
 CanopySize canopy_size(const CanopyMesh& mesh, const std::vector<Vec3>& positions);
+/// Mean over the canopies of a cluster, each with its own axis along z, of the mesh of one.
+CanopySize mean_size(const CanopyMesh& one, const std::vector<std::vector<Vec3>>& canopies);
 
 /// Of the canopy's mouth, seen along z [m2].
 double skirt_area(const CanopyMesh& mesh, const std::vector<Vec3>& positions);

@@ -62,6 +62,11 @@ CanopyMesh steady_mesh(const Settings& resolved, const CanopyMesh* own) {
   return mesh_of(cluster_of(resolved), resolved, own);
 }
 
+CanopyMesh flying_mesh(const Settings& resolved) {
+  if (const std::optional<Cluster> cluster = cluster_of(resolved)) return join_risers(cluster->mesh()).mesh;
+  return parachute_mesh(resolved);
+}
+
 FlowProblem flow_problem(const Settings& resolved) {
   const FlowSettings& flow = resolved.flow();
   FlowProblem problem;

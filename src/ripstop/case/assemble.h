@@ -21,6 +21,8 @@ CanopyMesh parachute_mesh(const Design& design, const Settings& resolved);
 std::optional<Cluster> cluster_of(const Settings& resolved);
 /// The mesh of a steady run: of all canopies. Otherwise parachute_mesh().
 CanopyMesh steady_mesh(const Settings& resolved, const CanopyMesh* own = nullptr);
+/// The mesh of a flight: of all canopies, whose risers end at one node.
+CanopyMesh flying_mesh(const Settings& resolved);
 /// A parachute_mesh() with parachute_mass(): hems, allowances and loops of lines, which the mesh does not have, are
 /// added to all of its nodes in proportion.
 CanopyMesh mesh_as_cut(CanopyMesh mesh, const Settings& resolved);

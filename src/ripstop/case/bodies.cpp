@@ -163,6 +163,10 @@ std::vector<FlowBody> rigid_bodies(const Settings& resolved) {
 
 void require_canopy_alone(const Settings& resolved, const char* what) {
   require_one_canopy(resolved, what);
+  require_no_bodies(resolved, what);
+}
+
+void require_no_bodies(const Settings& resolved, const char* what) {
   if (resolved.written().bodies.empty()) return;
   throw Error(
       ExitCode::usage,

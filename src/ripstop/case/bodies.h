@@ -73,5 +73,7 @@ double usual_trailing_distance(const Design& parachute);
 std::vector<FlowBody> rigid_bodies(const Settings& resolved);
 /// Throws Error(usage) for a case with bodies or a cluster: in `what` the payload moves relative to the box.
 void require_canopy_alone(const Settings& resolved, const char* what);
+/// Throws Error(usage) for a case with rigid bodies: `what` computes canopies alone.
+void require_no_bodies(const Settings& resolved, const char* what);
 
 }  // namespace ripstop::inline cases

@@ -17,7 +17,6 @@ namespace ripstop::inline cases {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-constexpr double widest_spread = 60;  // [deg]
 // Depth of the inflated canopy to its widest part, in inflated diameters (about).
 constexpr double widest_part = 0.25;
 // Inflated over the inflated diameter of the domain, which is a generous one: canopies closer than this do touch.
@@ -39,8 +38,9 @@ void describe(Fields& fields, ClusterKeys& keys) {
       .required();
   fields
       .number("spread_angle_deg", keys.spread_angle_deg, above(0).up_to(widest_spread),
-              "Angle between the axis of each canopy and the axis of the cluster. The result contains the "
-              "moment that would change it.")
+              "Angle between the axis of each canopy and the axis of the cluster. The result of a steady run "
+              "contains the moment that would change it. In a flight or an inflation it is the angle at the "
+              "start.")
       .required();
   fields.toggle(
       "equilibrium", keys.equilibrium,
@@ -52,6 +52,17 @@ void describe(Fields& fields, ClusterKeys& keys) {
               "Drag coefficient of one canopy alone, from a run of the same case without this table. The "
               "cluster factor is relative to it.")
       .absent("no cluster factor in the result");
+  fields
+      .number(
+          "single_descent_drag_coefficient", keys.single_descent_drag_coefficient, above(0).up_to(5),
+          "Drag coefficient in descent of one canopy alone, from a flight of the same case without this "
+          "table and with the same share of the payload. The cluster factor in descent is relative to it.")
+      .absent("no cluster factor in the result of a flight");
+  fields
+      .number("widest_spread_angle_deg", keys.widest_spread_angle_deg, above(0).up_to(widest_spread),
+              "Largest angle between a canopy and the axis of the cluster in flight, for which the default "
+              "flow domain is made.")
+      .absent("the larger of `45` and spread_angle_deg + 15, at most `60`");
 }
 
 ClusterLayout layout_of(const ClusterKeys& keys) {
@@ -93,11 +104,15 @@ void check_cluster(const Case& given, const FlowSettings& flow, Findings& findin
   if (!given.bodies.empty())
     findings.add("body." + given.bodies.begin()->first, "", "",
                  "rigid bodies and a cluster cannot be in one case; remove one of the tables");
-  if (given.payload.mass_kg)
-    findings.add(
-        "payload.mass_kg", *given.payload.mass_kg, "",
-        "the speed at which drag equals weight is not computed for a cluster; remove the payload and give "
-        "flow.speed_m_s");
+  if (given.payload.mass_kg && given.cluster->equilibrium)
+    findings.add("cluster.equilibrium", "true", "false",
+                 "the search for the spread angle is at a given speed; remove the payload (payload.mass_kg) "
+                 "and give flow.speed_m_s");
+  if (const auto& widest = given.cluster->widest_spread_angle_deg;
+      widest && *widest < given.cluster->spread_angle_deg)
+    findings.add("cluster.widest_spread_angle_deg", *widest,
+                 fmt::format("at least {:g}", given.cluster->spread_angle_deg),
+                 "is below cluster.spread_angle_deg, the angle at the start");
   const double across = start_diameter(given.parachute);
   const Vec3 room = cluster_arm(given) * widest_layout(*given.cluster).width();
   const double needed[] = {room.x + across, room.y + across}, box[] = {flow.box_m.x, flow.box_m.y},
@@ -131,8 +146,8 @@ void require_one_canopy(const Settings& resolved, const char* what) {
   if (!resolved.written().cluster) return;
   throw Error(
       ExitCode::usage,
-      fmt::format("cluster.canopies = {}: {} computes one canopy; only a steady run and a sweep compute "
-                  "a cluster (remove the table, or --unset cluster)",
+      fmt::format("cluster.canopies = {}: {} computes one canopy; only a steady run, a sweep, a flight "
+                  "and a coupled inflation compute a cluster (remove the table, or --unset cluster)",
                   resolved.written().cluster->canopies, what));
 }
 

@@ -22,10 +22,13 @@ struct ClusterKeys {
   int canopies = 0;
   double spread_angle_deg = 0;  // between the axes of a canopy and of the cluster; of a search the first one
   bool equilibrium = false;     // the run searches for the angle
-  std::optional<double> single_drag_coefficient;  // of one canopy alone, for the cluster factor
+  std::optional<double> single_drag_coefficient;               // of one canopy alone, for the cluster factor
+  std::optional<double> single_descent_drag_coefficient = {};  // likewise of a flight
+  std::optional<double> widest_spread_angle_deg = {};          // in flight, for the domain
 };
 void describe(Fields& fields, ClusterKeys& keys);
 
+inline constexpr double widest_spread = 60;  // largest spread angle [deg]
 /// The search for the equilibrium tries spread angles up to so far from the first one (assumed) [deg].
 inline constexpr double spread_search = 10;
 

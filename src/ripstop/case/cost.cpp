@@ -90,12 +90,14 @@ double free_memory() {
   return std::max(0.0, free);
 }
 
-void require_memory(double bytes, const std::string& what) {
+void require_memory(double bytes, const std::string& what, int canopies) {
   const double free = free_memory();
   if (bytes <= free) return;
-  throw Error(ExitCode::resources, fmt::format("{} needs about {:.1f} GB of memory, but {:.1f} GB are free: "
-                                               "use fewer cells (flow.cells) or nodes (parachute.mesh)",
-                                               what, 1e-9 * bytes, 1e-9 * free));
+  throw Error(ExitCode::resources,
+              fmt::format("{} needs about {:.1f} GB of memory, but {:.1f} GB are free: use fewer cells "
+                          "(flow.cells){} nodes (parachute.mesh){}",
+                          what, 1e-9 * bytes, 1e-9 * free, canopies > 1 ? "," : " or",
+                          canopies > 1 ? fmt::format(" or canopies (cluster.canopies = {})", canopies) : ""));
 }
 
 void require_cloth_memory(const Design& design) {

@@ -25,8 +25,9 @@ double flow_memory(double cells);
 /// Memory available to this process: the least of the free memory of the machine, of its control group and of
 /// its own limit (ulimit -v) [bytes].
 double free_memory();
-/// Throws Error(resources) when the named object needs more than that: "a steady run on 2e+08 cells".
-void require_memory(double bytes, const std::string& what);
+/// Throws Error(resources) when the named object needs more than that: "a steady run on 2e+08 cells". With several
+/// `canopies` fewer of them are a remedy.
+void require_memory(double bytes, const std::string& what, int canopies = 1);
 /// The same for all that computes the canopy of a design alone.
 void require_cloth_memory(const Design& design);
 

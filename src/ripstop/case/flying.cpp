@@ -7,7 +7,9 @@
 
 #include "ripstop/case/assemble.h"
 #include "ripstop/case/bodies.h"
+#include "ripstop/case/cluster.h"
 #include "ripstop/case/cost.h"
+#include "ripstop/case/flight_cells.h"
 #include "ripstop/case/opening.h"
 #include "ripstop/case/payload.h"
 #include "ripstop/case/resolve.h"
@@ -20,28 +22,10 @@
 namespace ripstop::inline cases {
 namespace {
 
-constexpr double growth = 1.2;  // of the cells outside of the core: a coarse grid in a wide box
 // The flight begins with the equilibrium on the axis and does not depend on its last percent.
 constexpr int start_flow_iterations = 100, start_average = 30, start_iterations = 12;
-constexpr int multiple = 4;             // of cells along an axis, for the multigrid
 constexpr double least_pressure = 2;    // dynamic pressure over the weight of the cloth an area
 constexpr double least_payload = 0.25;  // over the mass of the parachute; below it the lines are hardly taut
-
-/// Cells of width h in the core, growing outside of it.
-int cells_along(double core, double before, double after, double h) {
-  const double count =
-      std::ceil(core / h) + cells_outside(h, before, growth) + cells_outside(h, after, growth);
-  return multiple * static_cast<int>(std::ceil(count / multiple));
-}
-
-std::array<int, 3> coarse_cells(const Case& given, double over_diameter) {
-  const double d = inflated_diameter(given.parachute), h = nominal_diameter(given.parachute) / over_diameter;
-  const double aside = 0.5 * d * (sheet_box.x - sheet_core.x),
-               before = d * (sheet_skirt - 0.25 * sheet_core.z);
-  const int across = cells_along(d * sheet_core.x, aside, aside, h);
-  return {across, across,
-          cells_along(d * sheet_core.z, before, d * (sheet_box.z - sheet_core.z) - before, h)};
-}
 
 void refuse(const std::string& text) {
   throw Error(ExitCode::usage, text);
@@ -71,6 +55,10 @@ void check_flight_keys(const Case& given) {
     refuse(
         "flight.wind.exponent: a profile over height needs the height of the payload at the start "
         "(flight.height_m or --height)");
+  if (given.cluster && s.start == FlightSettings::Start::inflation)
+    refuse(
+        "flight.start = \"inflation\": the flight of a cluster starts in equilibrium at "
+        "cluster.spread_angle_deg; leave out --deploy or set flight.start = \"steady\"");
   const std::vector<ReefingStage>& reefing = given.inflation.reefing;
   if (s.start == FlightSettings::Start::inflation && !reefing.empty() &&
       reefing.back().cut_s >= given.inflation.duration_s)
@@ -81,21 +69,6 @@ void check_flight_keys(const Case& given) {
                     reefing.size() - 1, reefing.back().cut_s, given.inflation.duration_s));
 }
 
-/// Cells across the nominal diameter with which the folded canopy is as wide as an opening requires.
-double cells_for_folds(const Case& flight) {
-  constexpr double across_folds = 2.2;  // a coupled opening refuses fewer than 2
-  const double width = 2 * flight.inflation.initial_radius_m.value_or(0);
-  const double needed = width > 0 ? across_folds * nominal_diameter(flight.parachute) / width : 0;
-  return std::max(needed, flight.flight.cells_across);
-}
-
-void take_coarse_cells(Case& flight, double across) {
-  FlowKeys& flow = flight.flow;
-  if (flow.cells || flow.box_m || flow.core.size_m) return;
-  flow.cells = coarse_cells(flight, across);
-  if (!flow.core.growth) flow.core.growth = growth;
-}
-
 /// One case for both: the flow of the opening is that of the flight.
 Case deployed_case(Case flight) {
   flight.inflation.air = AirModel::coupled;
@@ -103,7 +76,7 @@ Case deployed_case(Case flight) {
   if (!flight.inflation.initial_radius_m && !flight.deployment) flight.deployment.emplace();
   flight = opening_case(flight);
   if (!flight.flow.sides) flight.flow.sides = Sides::far_field;
-  take_coarse_cells(flight, cells_for_folds(flight));
+  take_flight_cells(flight, cells_for_folds(flight));
   return flight;
 }
 
@@ -119,9 +92,10 @@ void refuse_other_payload(const Case& given, const Case& opening) {
 
 /// At which the usual drag of the family carries the payload [m/s].
 double usual_rate(const Settings& flight) {
-  const double area = usual_drag_coefficient(flight.parachute()) * nominal_area(flight.parachute()) +
+  const double area = canopy_count(flight.written()) * usual_drag_coefficient(flight.parachute()) *
+                          nominal_area(flight.parachute()) +
                       flight.payload().drag_area_m2;
-  return terminal_speed(*flight.payload().mass_kg + parachute_mass(flight), area,
+  return terminal_speed(*flight.payload().mass_kg + mass_of_canopies(flight), area,
                         flight.flow().density_kg_m3);
 }
 
@@ -133,7 +107,8 @@ FlightProblem problem_at(const Settings& flight, double rate, int threads) {
   if (stream.sides != Sides::far_field)
     refuse("flow.sides: in flight the air comes from any direction; leave it out or set it to \"far-field\"");
   const Cost cost = cost_of(flight);
-  require_memory(cost.memory, fmt::format("a flight in {:.3g} cells of air", cost.cells));
+  require_memory(cost.memory, fmt::format("a flight in {:.3g} cells of air", cost.cells),
+                 canopy_count(flight.written()));
   const double dynamic = 0.5 * stream.density_kg_m3 * rate * rate,
                weight = flight.materials().canopy.areal_density_kg_m2 * standard_gravity;
   if (dynamic < least_pressure * weight)
@@ -144,7 +119,7 @@ FlightProblem problem_at(const Settings& flight, double rate, int threads) {
         *flight.payload().mass_kg, rate, dynamic, weight));
   FlightProblem problem;
   problem.mesh = parachute_mesh(flight);
-  require_canopy_alone(flight, "a flight");
+  require_no_bodies(flight, "a flight");
   problem.air = {flow_problem(flight), flight.flight().courant};
   problem.settings = flight.flight();
   problem.cloth = flight.inflation();
@@ -172,13 +147,18 @@ Case flight_case(const Case& given) {
   if (!given.origins.contains("coupling.max_iterations"))
     flight.coupling.max_iterations = std::min(start_iterations, given.coupling.max_iterations);
   if (!flight.flow.sides) flight.flow.sides = Sides::far_field;
-  take_coarse_cells(flight, flight.flight.cells_across);
+  take_flight_cells(flight, flight.flight.cells_across);
   return flight;
 }
 
 Case continued_case(const Case& given, const Settings& opening) {
   check_flight_keys(given);
   Case flight = opening.written();
+  if (const auto& cluster = given.cluster ? given.cluster : flight.cluster)
+    refuse(fmt::format(
+        "cluster.canopies = {}: a flight of a cluster starts in equilibrium, not from an inflation; leave "
+        "out --from, or compute one canopy (--unset cluster)",
+        cluster->canopies));
   refuse_other_payload(given, flight);
   flight.title = given.title, flight.flight = given.flight;
   flight.flight.start = FlightSettings::Start::inflation;
@@ -187,18 +167,18 @@ Case continued_case(const Case& given, const Settings& opening) {
   FlowKeys& flow = flight.flow;  // other cells about the canopy in the same place
   flow.cells.reset(), flow.box_m.reset();
   flow.core.size_m.reset(), flow.core.start_m.reset(), flow.core.growth.reset();
-  take_coarse_cells(flight, given.flight.cells_across);
+  take_flight_cells(flight, given.flight.cells_across);
   return flight;
 }
 
 void require_payload(const Settings& flight) {
-  const double payload = *flight.payload().mass_kg, least = least_payload * parachute_mass(flight);
+  const double payload = *flight.payload().mass_kg, least = least_payload * mass_of_canopies(flight);
   if (payload >= least) return;
   const auto [given, needed] = rounded_apart(payload, least);
   refuse(fmt::format(
-      "payload.mass_kg = {}: must be at least {} kg, a quarter of the mass of its parachute, because a "
+      "payload.mass_kg = {}: must be at least {} kg, a quarter of the mass of its parachute{}, because a "
       "lighter payload does not keep the lines taut; use a heavier payload or a smaller canopy",
-      given, needed));
+      given, needed, flight.written().cluster ? "s" : ""));
 }
 
 FlightProblem flight_problem(const Settings& flight, std::vector<Vec3> shape, std::vector<double> pressure,
@@ -206,6 +186,11 @@ FlightProblem flight_problem(const Settings& flight, std::vector<Vec3> shape, st
   FlightProblem problem = problem_at(flight, flight.flow().speed_m_s, threads);
   problem.mesh = mesh_as_cut(std::move(problem.mesh), flight);
   problem.shape = std::move(shape), problem.pressure = std::move(pressure);
+  if (const auto& keys = flight.written().cluster) {
+    JoinedCluster joined = join_risers(Cluster(std::move(problem.mesh), layout_of(*keys)).mesh());
+    problem.shape = joined.joined(problem.shape);
+    problem.mesh = std::move(joined.mesh);
+  }
   return problem;
 }
 

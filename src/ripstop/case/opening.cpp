@@ -190,22 +190,50 @@ LoadSource load_source(const Settings& opening) {
           drag};
 }
 
+namespace {
+
+/// Throws Error(usage) for settings that the opening of a cluster cannot have.
+void check_cluster_opening(const Settings& opening) {
+  const Case& given = opening.written();
+  if (!given.cluster) return;
+  const auto refuse = [](const char* text) { throw Error(ExitCode::usage, text); };
+  if (opening.inflation().air != AirModel::coupled)
+    refuse(
+        "inflation.air = \"uniform\": the opening of a cluster needs the flow between its canopies; set "
+        "inflation.air = \"coupled\", or compute one canopy (--unset cluster)");
+  if (!opening.inflation().reefing.empty())
+    refuse(
+        "inflation.reefing: reefing lines are computed for one canopy only; remove them, or compute one "
+        "canopy "
+        "(--unset cluster)");
+  if (given.deployment)
+    refuse(
+        "deployment: the opening of a cluster begins with folded canopies outside of their container; remove "
+        "the "
+        "table and give inflation.initial_radius_m, or compute one canopy (--unset cluster)");
+}
+
+}  // namespace
+
 InflationProblem opening_problem(const Settings& opening, const LoadSource& source, int threads,
                                  const std::function<void()>& alive) {
   require_axial_stream(opening.flow(), "an opening");
-  require_one_canopy(opening, "an opening");
+  check_cluster_opening(opening);
   InflationProblem problem;
+  if (const auto& keys = opening.written().cluster) problem.cluster = layout_of(*keys);
   problem.mesh = parachute_mesh(opening);
   problem.settings = opening.inflation();
   if (opening.inflation().air == AirModel::coupled) {
     const Cost cost = cost_of(opening);
-    require_memory(cost.memory, fmt::format("a coupled inflation with {:.3g} cells", cost.cells));
+    require_memory(cost.memory, fmt::format("a coupled inflation with {:.3g} cells", cost.cells),
+                   canopy_count(opening.written()));
     problem.air = AirProblem{flow_problem(opening), opening.inflation().courant};
     // The inertia of hems and allowances counts at the payload, so that the cloth keeps that of its area.
     if (opening.inflation().mass == InflationSettings::Mass::payload)
-      problem.air->payload = Payload{*opening.payload().mass_kg + mass_beyond(problem.mesh, opening),
-                                     standard_gravity, opening.inflation().flight_angle_deg,
-                                     opening.payload().drag_area_m2, density_below(opening.flow().height_m)};
+      problem.air->payload = Payload{
+          *opening.payload().mass_kg + canopy_count(opening.written()) * mass_beyond(problem.mesh, opening),
+          standard_gravity, opening.inflation().flight_angle_deg, opening.payload().drag_area_m2,
+          density_below(opening.flow().height_m)};
     if (const auto deployment = deployment_of(opening)) start_from(*deployment, opening, problem);
     problem.settings.damping_n_s_m3 = problem.settings.quadratic_damping_n_s2_m4 = 0;
   } else {

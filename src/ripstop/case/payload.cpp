@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "ripstop/case/cluster.h"
 #include "ripstop/core/error.h"
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/descent.h"
@@ -39,16 +40,21 @@ double parachute_mass(const Settings& resolved) {
   return parachute_masses(resolved).total;
 }
 
+double mass_of_canopies(const Settings& resolved) {
+  return canopy_count(resolved.written()) * parachute_mass(resolved);
+}
+
 double suspended_weight(const Settings& resolved, double payload) {
-  return (payload + parachute_mass(resolved)) * standard_gravity;
+  return (payload + mass_of_canopies(resolved)) * standard_gravity;
 }
 
 double payload_first_speed(const Case& given, double density) {
   if (!given.payload.mass_kg)
     throw Error(ExitCode::usage,
                 "the case has neither flow.speed_m_s nor payload.mass_kg; write one of them");
-  const double canopy = usual_drag_coefficient(given.parachute) * nominal_area(given.parachute);
-  return terminal_speed(*given.payload.mass_kg, canopy + given.payload.drag_area_m2, density);
+  const double canopies =
+      canopy_count(given) * usual_drag_coefficient(given.parachute) * nominal_area(given.parachute);
+  return terminal_speed(*given.payload.mass_kg, canopies + given.payload.drag_area_m2, density);
 }
 
 double usual_drag_coefficient(const Design& parachute) {

@@ -25,7 +25,9 @@ PartMasses parachute_masses(const Settings& resolved);
 double parachute_mass(const Design& design, const PartMaterials& materials);
 /// The total of parachute_masses() [kg].
 double parachute_mass(const Settings& resolved);
-/// Speed at which the usual drag of the canopy family carries payload.mass_kg: start value of the iteration
+/// parachute_mass() of every canopy of the case [kg].
+double mass_of_canopies(const Settings& resolved);
+/// Speed at which the usual drag of the canopies' family carries payload.mass_kg: start value of the iteration
 /// for the speed [m/s].
 double payload_first_speed(const Case& given, double density);
 /// The middle of the family's range on the nominal area.
@@ -39,7 +41,7 @@ struct DeploymentSpeed {
 };
 /// Airspeed at line stretch, for all commands: `asked`, else payload.deployment_speed_m_s; nothing without both.
 std::optional<DeploymentSpeed> deployment_speed(const PayloadKeys& payload, std::optional<double> asked = {});
-/// Of `payload` [kg] and its parachute; the drag of the canopy carries both [N].
+/// Of `payload` [kg] and its canopies, whose drag carries both [N].
 double suspended_weight(const Settings& resolved, double payload);
 
 }  // namespace ripstop::inline cases

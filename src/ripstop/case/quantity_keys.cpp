@@ -21,6 +21,7 @@ const std::vector<std::pair<std::string, std::string>>& quantity_keys() {
       {"the history rate", "inflation.history_hz"},
       {"number of folds", "inflation.folds"},
       {"spread angle", "cluster.spread_angle_deg"},
+      {"the widest spread angle", "cluster.widest_spread_angle_deg"},
       {"length of the riser", "parachute.riser.length_m"},
       {"slack of the lines", "inflation.slack_m"},
       {"number of cloth nodes", "parachute.mesh.cloth_nodes"},

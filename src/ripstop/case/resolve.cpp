@@ -16,8 +16,6 @@
 namespace ripstop::inline cases {
 namespace {
 
-constexpr double least_box_over_core = 2;  // a core that fills more of the box than half of it gains little
-
 std::string given_where(const Origins& origins, const std::string& key) {
   const auto found = origins.find(key);
   if (found == origins.end()) return "given";

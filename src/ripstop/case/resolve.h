@@ -47,6 +47,8 @@ inline constexpr Vec3 paper_box{2, 2, 4};
 /// docs/theory/flow-cartesian.md, Sides of the box, and docs/validation.md give their errors.
 inline constexpr Vec3 sheet_box{6, 6, 9}, sheet_core{1.8, 1.8, 2.2};
 inline constexpr double sheet_skirt = 4;
+/// A core that fills more of the box than half of it gains little.
+inline constexpr double least_box_over_core = 2;
 /// CoreSettings::off_axis in time: no two of a canopy's four sides then lie alike on the cells.
 inline constexpr double in_time_off_axis = 0.25;
 

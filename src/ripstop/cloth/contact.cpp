@@ -28,13 +28,14 @@ ContactLayout contact_layout(const Mesh& mesh, const Cloth& cloth) {
   layout.stiffness_over_spacing = options.pressure / thickness;
   std::vector<double> area(mesh.node_count(), 0.0);
   std::vector<int> cell_count(mesh.node_count(), 0), index(mesh.node_count(), -1);
+  std::vector<int> piece(mesh.node_count(), 0);
   std::size_t cell = 0;
   const std::vector<Cell> cells = cells_of(mesh);
   for (const Patch& patch : mesh.patches)
     for (const double cut : patch.cell_area) {
       const Cell& c = cells[cell++];
       if (c.corner[0] < 0) continue;
-      for (const int node : c.corner) area[node] += cut, ++cell_count[node];
+      for (const int node : c.corner) area[node] += cut, ++cell_count[node], piece[node] = patch.piece;
     }
   for (int node = 0; node < mesh.node_count(); ++node) {
     if (cell_count[node] == 0) continue;
@@ -44,6 +45,7 @@ ContactLayout contact_layout(const Mesh& mesh, const Cloth& cloth) {
     layout.spacing.push_back(spacing);
     layout.mass.push_back(mesh.mass[node]);
     layout.as_cut.push_back(mesh.start[node]);
+    layout.piece.push_back(piece[node]);
     layout.folded.push_back(options.folded[node]);
     layout.largest_spacing = std::max(layout.largest_spacing, spacing);
     layout.fastest = std::max(layout.fastest, std::sqrt(usual_contacts * layout.stiffness_over_spacing *
@@ -179,7 +181,9 @@ void Contact::list_pairs(int rank) {
           if (j == i || !(dot(d, d) < cells_.width * cells_.width)) continue;
           const double spacing = 0.5 * (layout_.spacing[i] + layout_.spacing[j]);
           const Vec3 on_cloth = layout_.as_cut[j] - layout_.as_cut[i];
-          if (dot(on_cloth, on_cloth) < neighbourhood * neighbourhood * spacing * spacing) continue;
+          if (layout_.piece[i] == layout_.piece[j] &&
+              dot(on_cloth, on_cloth) < neighbourhood * neighbourhood * spacing * spacing)
+            continue;
           const Vec3 folded = layout_.folded[j] - layout_.folded[i];
           const double usual = thickness * spacing, square = dot(folded, folded);
           const bool nearer = square < clearly_more * usual * usual;  // else no root is needed

@@ -24,6 +24,7 @@ struct ContactLayout {
   std::vector<double> spacing;        // of the lattice there [m]
   std::vector<double> mass;           // of tied nodes their own [kg]
   std::vector<Vec3> as_cut, folded;   // positions, from which follow neighbourhood and d
+  std::vector<int> piece;             // Patch::piece: nodes of different pieces are no neighbours
   double largest_spacing = 0;         // [m]
   double stiffness_over_spacing = 0;  // k over the spacing [Pa]
   double friction = 0;

@@ -65,6 +65,7 @@ struct FreeFlightState {
   double mouth_at_start = 0;    // FreeFlightRow::mouth_area [m2]
   double collapsed_since = -1;  // [s]; negative: the canopy is open
   bool upright = false;         // the canopy has been above its payload since the start
+  double pierced = 0;           // of a cluster the largest pierced_share() of all shapes
 };
 
 template <Of<FreeFlightState> T, class Visit>
@@ -81,6 +82,7 @@ void each_member(T& s, Visit&& visit) {
   visit("mouth_at_start", s.mouth_at_start);
   visit("collapsed_since", s.collapsed_since);
   visit("upright", s.upright);
+  visit("pierced", s.pierced);
 }
 
 }  // namespace ripstop::inline fsi

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "ripstop/core/quantity_error.h"
@@ -44,11 +45,9 @@ Vec3 centroid(const std::vector<int>& nodes, const std::vector<Vec3>& x) {
   return sum / double(nodes.size());
 }
 
-double mouth_area(const std::vector<Cell>& cells, const std::vector<Vec3>& x) {
-  Vec3 sum;
-  for (const Cell& c : cells)
-    if (c.corner[0] >= 0) sum += area_vector(x[c.corner[0]], x[c.corner[1]], x[c.corner[2]], x[c.corner[3]]);
-  return norm(sum);
+/// Of all canopies, each the magnitude of its area vector.
+double mouth_area(const std::vector<double>& mouths) {
+  return std::accumulate(mouths.begin(), mouths.end(), 0.0);
 }
 
 /// v turned by `angle` [rad] about the unit vector `axis` (Rodrigues).
@@ -133,7 +132,8 @@ FreeFlight::FreeFlight(FlightProblem problem)
       stepper_(AdaptiveStepper::Step::renewed, problem_.cloth.step_fraction, row_, team_),
       air_(std::make_unique<CoupledFlow>(problem_.air, mesh_, &team_)) {
   for (const double m : mesh_.mass) mass_ += m;
-  const double diameter = std::sqrt(mouth_area(air_->cells(), problem_.shape) * 4 / std::numbers::pi);
+  const double of_one = mouth_area(mouths(problem_.shape)) / canopies();
+  const double diameter = std::sqrt(of_one * 4 / std::numbers::pi);
   follow_ = follow_rate * fastest(problem_) / diameter;
   longest_step_ = longest_share * diameter / slowest(problem_);
 }
@@ -192,7 +192,7 @@ FreeFlightState FreeFlight::start() {
   state.kinetic_at_start = kinetic_energy(*cloth_, cloth);
   state.elastic_at_start = elastic_energy(*cloth_, cloth);
   state.momentum_at_start = momentum(*cloth_, cloth) + mass_ * state.box_velocity;
-  state.mouth_at_start = mouth_area(air_->cells(), positions(cloth, *cloth_));
+  state.mouth_at_start = mouth_area(mouths(positions(cloth, *cloth_)));
   // The predictor of the first step has the inertia of this box, not that of the opening's.
   if (problem_.from) {
     const Vec3 on_mass = gravity_ - box_acceleration(state);
@@ -247,9 +247,10 @@ void FreeFlight::check_cells(const std::vector<Vec3>& x, double time) const {
         fmt::format(
             "t = {:.4g} s: the canopy has left the fine cells of the flow, which follow it: a point of "
             "it is at ({:.3g}, {:.3g}, {:.3g}) m from its mean position. It has turned over or collapsed, "
-            "or the region of fine cells is too small",
-            time, p.x - home_.x, p.y - home_.y, p.z - home_.z),
-        {"region of fine cells"});
+            "or the region of fine cells is too small{}",
+            time, p.x - home_.x, p.y - home_.y, p.z - home_.z,
+            canopies() > 1 ? "; increase the widest spread angle" : ""),
+        {"region of fine cells", "the widest spread angle"});
   }
 }
 
@@ -267,7 +268,7 @@ FreeFlightRow FreeFlight::row_of(const FreeFlightState& state, const std::vector
   row.wind = axes_.over_ground(state.stream + state.box_velocity);
   const Vec3 relative = axes_.over_ground(state.stream - centroid(canopy_, v));
   row.attack = std::atan2(norm(cross(line, relative)), dot(line, relative)) / degree;
-  row.mouth_area = mouth_area(air_->cells(), x);
+  row.mouth_area = mouth_area(mouths(x));
   return row;
 }
 
@@ -304,7 +305,9 @@ FreeFlightRow FreeFlight::advance(FreeFlightState& state) {
   row.momentum_gap = norm(taken.flow.momentum_gap), row.mass_defect = taken.flow.mass_defect;
   // A canopy that has just opened may still grow.
   if (problem_.from) state.mouth_at_start = std::max(state.mouth_at_start, row.mouth_area);
-  if (row.mouth_area >= collapsed_share * state.mouth_at_start)
+  const std::vector<double> open = mouths(x);
+  const double least = *std::min_element(open.begin(), open.end());
+  if (least >= collapsed_share * state.mouth_at_start / canopies())
     state.collapsed_since = -1;
   else if (state.collapsed_since < 0)
     state.collapsed_since = row.time;
@@ -318,9 +321,19 @@ std::string FreeFlight::failure(const FreeFlightState& state, const FreeFlightRo
   if (problem_.from && !state.upright)
     limit = std::max(limit, turned_over - problem_.from->angle / degree + deployment_swing);
   if (row.angle > limit) return fmt::format("the parachute turned over at {:.4g} s", row.time);
-  if (state.collapsed_since >= 0 && row.time - state.collapsed_since > collapsed_for)
-    return fmt::format("the canopy collapsed at {:.4g} s", state.collapsed_since);
+  if (state.collapsed_since >= 0 && row.time - state.collapsed_since > collapsed_for) {
+    if (canopies() == 1) return fmt::format("the canopy collapsed at {:.4g} s", state.collapsed_since);
+    const std::vector<double> open = mouths(positions(state.coupled.cloth, *cloth_));
+    const auto number = std::min_element(open.begin(), open.end()) - open.begin() + 1;
+    return fmt::format("canopy {} of the cluster collapsed at {:.4g} s", number, state.collapsed_since);
+  }
   return "";
+}
+
+std::vector<CanopyRow> FreeFlight::canopy_rows(const FreeFlightState& state) const {
+  std::vector<CanopyRow> rows = ripstop::canopy_rows(mesh_, *cloth_, state.coupled.cloth, payload_);
+  for (CanopyRow& row : rows) row.time += began();
+  return rows;
 }
 
 FreeFlight::Balance FreeFlight::balance(const FreeFlightState& state, const FreeFlightRow& row) const {

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "ripstop/fsi/cluster_motion.h"
 #include "ripstop/fsi/coupled_step.h"
 #include "ripstop/fsi/flight_record.h"
 #include "ripstop/fsi/flight_settings.h"
@@ -63,11 +64,14 @@ class FreeFlight {
     double energy_residual = 0, momentum_residual = 0;
   };
   Balance balance(const FreeFlightState& state, const FreeFlightRow& row) const;
-  /// Why the flight is no flight any more: the canopy has collapsed or turned over. Empty: it flies.
+  /// Why the flight is no flight any more: a canopy has collapsed, or the parachute has turned over. Empty: it flies.
   std::string failure(const FreeFlightState& state, const FreeFlightRow& row) const;
+  /// Every canopy of a cluster at the present state.
+  std::vector<CanopyRow> canopy_rows(const FreeFlightState& state) const;
 
   double began() const { return problem_.from ? problem_.from->time : 0; }  // since deployment [s]
   double mass() const { return mass_; }                                     // of parachute and payload [kg]
+  int canopies() const { return mesh_.rigging.canopies; }
   const CanopyMesh& mesh() const { return mesh_; }
   const Cloth& cloth() const { return *cloth_; }
   const FlightProblem& problem() const { return problem_; }
@@ -81,6 +85,9 @@ class FreeFlight {
   void release(FreeFlightState& state) const;
   Surroundings surroundings(const FreeFlightState& state, double length) const;
   Vec3 box_acceleration(const FreeFlightState& state) const;
+  std::vector<double> mouths(const std::vector<Vec3>& x) const {
+    return mouth_areas(air_->cells(), x, canopies());
+  }
   void check_cells(const std::vector<Vec3>& x, double time) const;
   FreeFlightRow row_of(const FreeFlightState& state, const std::vector<Vec3>& x,
                        const std::vector<Vec3>& v) const;

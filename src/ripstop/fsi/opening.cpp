@@ -43,7 +43,8 @@ Opening::Opening(InflationProblem problem, double snapshot_span, double least_ro
                  AdaptiveStepper::Step step)
     : problem_(with_snapshots(std::move(problem), snapshot_span)),
       team_(problem_.threads),
-      cloths_(problem_.mesh, problem_.settings, problem_.reefing, problem_.symmetry, problem_.linear, team_),
+      cloths_(problem_.mesh, problem_.settings, problem_.reefing, problem_.symmetry, problem_.linear, team_,
+              problem_.cluster),
       blocks_per_frame_(parts_of(problem_.settings.duration_s / problem_.settings.frames / longest_block,
                                  "blocks for each frame")),
       rows_per_block_(parts_of(problem_.settings.duration_s / problem_.settings.frames / blocks_per_frame_ *
@@ -98,16 +99,23 @@ InflationFrame Opening::frame(InflationState& state) const {
   frame.residual = frame.pressure_work > 0 ? left / frame.pressure_work : 0;
   frame.step = state.step;
   frame.stable_step = stability_limit(cloth_of(state), state.cloth).stable_step;
-  frame.size = canopy_size(mesh(), x);
+  const std::vector<std::vector<Vec3>> canopies = cloths_.upright(x);
+  frame.size = mean_size(cloths_.one(), canopies);
   frame.stress = stress_peak(mesh(), x, cell_stress(cloth(), state.cloth));
   frame.contact_depth = contact_report(cloth_of(state), state.cloth).deepest;
   frame.pierced = pierced_share(mesh(), x);
-  frame.asymmetry = asymmetry(mesh(), x, std::gcd(problem_.symmetry, folded().folds));
+  for (const std::vector<Vec3>& one : canopies)
+    frame.asymmetry =
+        std::max(frame.asymmetry, asymmetry(cloths_.one(), one, std::gcd(problem_.symmetry, folded().folds)));
   if (frame.stress.von_mises > state.highest_stress.von_mises) {
     state.highest_stress = frame.stress;
     state.highest_stress_time = frame.time;
   }
   return frame;
+}
+
+std::vector<CanopyRow> Opening::canopy_rows(const InflationState& state) const {
+  return ripstop::canopy_rows(mesh(), cloth(), state.cloth, mesh().fixed.front());
 }
 
 std::vector<double> Opening::peak_tension_of_lines(const InflationState& state) const {

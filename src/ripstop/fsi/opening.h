@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ripstop/fsi/adaptive_stepper.h"
+#include "ripstop/fsi/cluster_motion.h"
 #include "ripstop/fsi/coupled_flow.h"
 #include "ripstop/fsi/inflation_settings.h"
 #include "ripstop/fsi/opening_cloth.h"
@@ -22,7 +23,8 @@ struct InflationProblem {
   int threads = 0;
   int symmetry = 1;  // turns by 2 pi / symmetry map the parachute as cut onto itself
   std::optional<AirProblem> air = {};
-  std::vector<ReefingLine> reefing = {};  // in the order of their cuts
+  std::vector<ReefingLine> reefing = {};      // in the order of their cuts
+  std::optional<ClusterLayout> cluster = {};  // `mesh` is one of its canopies, not yet joined
 };
 
 class Opening {
@@ -51,6 +53,9 @@ class Opening {
   /// The flow of a coupled opening; null under a uniform pressure.
   virtual CoupledFlow* air() const { return nullptr; }
   int threads() const { return team_.size(); }
+  int canopies() const { return mesh().rigging.canopies; }
+  /// Every canopy of a cluster at the present state.
+  std::vector<CanopyRow> canopy_rows(const InflationState& state) const;
   std::vector<double> peak_tension_of_lines(const InflationState& state) const;  // [N]
 
  protected:

@@ -22,8 +22,11 @@ constexpr double share_over_two_cells = 2.0 / 3;
 /// square.
 class FoldWaves {
  public:
-  explicit FoldWaves(const InflationSettings& settings) : harmonic_(settings.imperfection_harmonic) {
-    std::uint64_t state = static_cast<std::uint64_t>(settings.imperfection_seed);
+  /// The canopies of a cluster have different random azimuths.
+  FoldWaves(const InflationSettings& settings, int canopy) : harmonic_(settings.imperfection_harmonic) {
+    constexpr std::uint64_t to_next_canopy = 1u << 20;
+    std::uint64_t state = static_cast<std::uint64_t>(settings.imperfection_seed) +
+                          to_next_canopy * static_cast<unsigned>(canopy);
     for (int k = 0; settings.imperfection_seed > 0 && k < harmonics; ++k) {
       state += 0x9e3779b97f4a7c15u;  // splitmix64
       std::uint64_t z = state;
@@ -55,6 +58,20 @@ double required_radius(const InflationSettings& settings) {
   return *settings.initial_radius_m;
 }
 
+std::vector<Vec3> with_imperfection(const CanopyMesh& mesh, const FoldedStart& folded,
+                                    const InflationSettings& s, int canopy) {
+  std::vector<Vec3> x = folded.positions;
+  if (s.imperfection_m == 0) return x;
+  const FoldWaves waves(s, canopy);
+  for (const Patch& patch : mesh.patches) {
+    for (int i = patch.first_node; i < patch.first_node + patch.rows * patch.columns; ++i) {
+      const double wave = waves.at(std::atan2(x[i].y, x[i].x));
+      x[i] += (s.imperfection_m * wave / folded.outer_radius) * Vec3{x[i].x, x[i].y, 0};
+    }
+  }
+  return x;
+}
+
 }  // namespace
 
 void damp_springs(Mesh& mesh, double line_time, double cloth_time) {
@@ -76,10 +93,15 @@ void damp_springs(Mesh& mesh, double line_time, double cloth_time) {
 }
 
 OpeningCloth::OpeningCloth(const CanopyMesh& as_cut, const InflationSettings& s,
-                           std::vector<ReefingLine> reefing, int symmetry, bool linear, ThreadTeam& team)
+                           std::vector<ReefingLine> reefing, int symmetry, bool linear, ThreadTeam& team,
+                           const std::optional<ClusterLayout>& cluster)
     : folded_(folded_start(as_cut, {required_radius(s), s.folds, s.slack_m}, symmetry, team)),
       reefing_(std::move(reefing)) {
   mesh_ = with_creases(as_cut, folded_);
+  if (cluster)
+    join(*cluster, s);
+  else
+    start_ = with_imperfection(mesh_, folded_, s, 0);
   const double cloth_damping = s.cloth_damping_s.value_or(0);
   damp_springs(mesh_, s.line_damping_s, cloth_damping);
   ClothOptions options{linear, s.damping_n_s_m3, s.quadratic_damping_n_s2_m4};
@@ -88,7 +110,6 @@ OpeningCloth::OpeningCloth(const CanopyMesh& as_cut, const InflationSettings& s,
     viscosity_limit_ = limit_viscosity(mesh_, options, folded_.positions, s.cloth_damping_step_share);
   add_reefed_stages(s, options);
   stages_.push_back(make_cloth(mesh_, options));
-  start_ = with_imperfection(s);
   elastic_at_start_ = elastic_energy(open(), start());
 }
 
@@ -112,17 +133,28 @@ void OpeningCloth::add_reefed_stages(const InflationSettings& settings, const Cl
         {"length of the first reefing line", "radius of the folded skirt"});
 }
 
-std::vector<Vec3> OpeningCloth::with_imperfection(const InflationSettings& s) const {
-  std::vector<Vec3> x = folded_.positions;
-  if (s.imperfection_m == 0) return x;
-  const FoldWaves waves(s);
-  for (const Patch& patch : mesh_.patches) {
-    for (int i = patch.first_node; i < patch.first_node + patch.rows * patch.columns; ++i) {
-      const double wave = waves.at(std::atan2(x[i].y, x[i].x));
-      x[i] += (s.imperfection_m * wave / folded_.outer_radius) * Vec3{x[i].x, x[i].y, 0};
-    }
+// Every canopy is folded about its own axis, and put at its place in the cluster.
+void OpeningCloth::join(const ClusterLayout& layout, const InflationSettings& settings) {
+  cluster_.emplace(mesh_, layout);
+  JoinedCluster joined = join_risers(cluster_->mesh());
+  std::vector<Vec3> folded(joined.node.size()), start = folded;
+  for (int k = 0; k < layout.canopies; ++k) {
+    cluster_->put(k, folded_.positions, folded);
+    cluster_->put(k, with_imperfection(mesh_, folded_, settings, k), start);
   }
-  return x;
+  folded_.positions = joined.joined(folded);
+  start_ = joined.joined(start);
+  mesh_ = std::move(joined.mesh);
+  joined_ = std::move(joined.node);
+}
+
+std::vector<std::vector<Vec3>> OpeningCloth::upright(const std::vector<Vec3>& x) const {
+  if (!cluster_) return {x};
+  std::vector<Vec3> all;
+  for (const int node : joined_) all.push_back(x[node]);
+  std::vector<std::vector<Vec3>> canopies;
+  for (int k = 0; k < cluster_->canopies(); ++k) canopies.push_back(cluster_->upright(cluster_->own(k, all)));
+  return canopies;
 }
 
 ClothState OpeningCloth::start() const {

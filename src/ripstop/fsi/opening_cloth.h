@@ -7,6 +7,7 @@
 #include "ripstop/cloth/cloth.h"
 #include "ripstop/fsi/inflation_settings.h"
 #include "ripstop/fsi/opening_record.h"
+#include "ripstop/parachute/cluster.h"
 #include "ripstop/parachute/fold.h"
 
 namespace ripstop::inline fsi {
@@ -26,13 +27,18 @@ void damp_springs(Mesh& mesh, double line_time, double cloth_time);
 class OpeningCloth {
  public:
   /// Throws Error(usage) for a folding or a reefing line that does not fit.
+  /// `as_cut` is one canopy; with `cluster` there are several of them, whose risers end at one node.
   OpeningCloth(const CanopyMesh& as_cut, const InflationSettings& settings, std::vector<ReefingLine> reefing,
-               int symmetry, bool linear, ThreadTeam& team);
+               int symmetry, bool linear, ThreadTeam& team, const std::optional<ClusterLayout>& cluster);
 
   const CanopyMesh& mesh() const { return mesh_; }
   const FoldedStart& folded() const { return folded_; }
   /// By how much the dampers of the cloth are weaker than `cloth_damping_s`, so that they do not limit the time step.
   const ViscosityLimit& viscosity_limit() const { return viscosity_limit_; }
+  /// One canopy, with its creases.
+  const CanopyMesh& one() const { return cluster_ ? cluster_->one() : mesh_; }
+  /// Positions of the nodes of every canopy, of a cluster each in its own frame with the skirt on the axis.
+  std::vector<std::vector<Vec3>> upright(const std::vector<Vec3>& x) const;
   /// Without reefing line.
   const Cloth& open() const { return *stages_.back(); }
   /// With the reefing line of the present stage.
@@ -46,11 +52,13 @@ class OpeningCloth {
   bool cut_due(InflationState& state) const;
 
  private:
-  std::vector<Vec3> with_imperfection(const InflationSettings& settings) const;
+  void join(const ClusterLayout& layout, const InflationSettings& settings);
   void add_reefed_stages(const InflationSettings& settings, const ClothOptions& options);
 
   CanopyMesh mesh_;
-  FoldedStart folded_;
+  FoldedStart folded_;  // of all canopies
+  std::optional<Cluster> cluster_;
+  std::vector<int> joined_;  // nodes of the mesh, by nodes of the cluster
   ViscosityLimit viscosity_limit_;
   std::vector<ReefingLine> reefing_;  // in the order of their cuts
   std::vector<ClothPtr> stages_;      // the last without reefing line

@@ -27,6 +27,8 @@ struct Patch {
   int columns = 0;
   bool periodic = false;
   int first_node = 0;
+  int piece =
+      0;  // positions as cut are comparable within one piece: contact does not exempt others as neighbours
   SpringLaw law[direction_count];        // per width, [N/m]
   double damping[direction_count] = {};  // C [N s/m] of every spring of the family
   /// In addition a Kelvin-Voigt solid: C gains viscosity share w / L0 of the spring. [N s/m]

@@ -1,6 +1,7 @@
 // The result of a canopy family for a design: masses and springs, and their parts of a parachute.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "ripstop/mesh/mesh.h"
@@ -25,9 +26,17 @@ struct Rigging {
   std::vector<int> tape_springs;
   std::vector<int> skirt_nodes;  // round the canopy's mouth, in order
   int confluence = -1;           // node
+  int canopies = 1;              // of a cluster: every list here has equal parts, one for each canopy in turn
   /// Of a disk-gap-band, with separate sizes; empty otherwise.
   std::vector<int> disk_patches, band_patches;
 };
+
+/// The part of such a list that belongs to canopy `k` of `canopies`.
+template <class T>
+std::vector<T> of_canopy(const std::vector<T>& all, int k, int canopies) {
+  const auto count = static_cast<std::ptrdiff_t>(all.size()) / canopies;
+  return {all.begin() + k * count, all.begin() + (k + 1) * count};
+}
 
 /// Goes wherever a Mesh does.
 struct CanopyMesh : Mesh {

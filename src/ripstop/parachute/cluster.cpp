@@ -33,6 +33,7 @@ struct Offsets {
 void append(CanopyMesh& all, const CanopyMesh& one, const Offsets& at, int number) {
   for (Patch patch : one.patches) {
     patch.first_node += at.node;
+    patch.piece = number - 1;
     all.patches.push_back(std::move(patch));
   }
   for (Spring spring : one.springs) {
@@ -113,6 +114,7 @@ CanopyMesh Cluster::mesh() const {
     put(k, one_.start, all.start);
   }
   all.rigging.confluence = one_.rigging.confluence;
+  all.rigging.canopies = layout_.canopies;
   return all;
 }
 
@@ -144,6 +146,41 @@ std::vector<Vec3> Cluster::upright(std::vector<Vec3> own) const {
   const Vec3 axis = arm / norm(arm);
   for (Vec3& p : own) p = end_of_riser_ + raised(p - end_of_riser_, axis);
   return own;
+}
+
+JoinedCluster join_risers(const CanopyMesh& cluster) {
+  JoinedCluster joined{cluster, std::vector<int>(cluster.start.size(), 0)};
+  std::vector<char> removed(cluster.start.size(), 0);
+  for (std::size_t k = 1; k < cluster.fixed.size(); ++k) removed[cluster.fixed[k]] = 1;
+  int count = 0;
+  for (std::size_t n = 0; n < removed.size(); ++n)
+    if (!removed[n]) joined.node[n] = count++;
+  CanopyMesh& mesh = joined.mesh;
+  const int confluence = joined.node[cluster.fixed.front()];
+  mesh.start.resize(count), mesh.mass.assign(count, 0.0);
+  for (std::size_t n = 0; n < removed.size(); ++n) {
+    if (removed[n]) joined.node[n] = confluence;
+    mesh.mass[joined.node[n]] += cluster.mass[n];
+  }
+  mesh.start = joined.joined(cluster.start);
+  const auto renumber = [&](int& node) { node = joined.node[node]; };
+  for (Patch& patch : mesh.patches) renumber(patch.first_node);
+  for (Spring& spring : mesh.springs) renumber(spring.a), renumber(spring.b);
+  for (Tie& tie : mesh.ties) {
+    renumber(tie.node);
+    for (Tie::Master& master : tie.masters) renumber(master.node);
+  }
+  for (int& node : mesh.rigging.skirt_nodes) renumber(node);
+  renumber(mesh.rigging.confluence);
+  mesh.fixed = {confluence};
+  return joined;
+}
+
+std::vector<Vec3> JoinedCluster::joined(const std::vector<Vec3>& all) const {
+  std::vector<Vec3> x(mesh.mass.size());
+  for (std::size_t n = all.size(); n-- > 0;)
+    x[node[n]] = all[n];  // the confluence is that of the first canopy
+  return x;
 }
 
 double Cluster::gap(const std::vector<Vec3>& all) const {

@@ -73,4 +73,15 @@ class Cluster {
   Vec3 confluence_;
 };
 
+/// A cluster whose risers end at one node.
+struct JoinedCluster {
+  CanopyMesh mesh;        // with that node as its only fixed one
+  std::vector<int> node;  // of this mesh, for every node of Cluster::mesh()
+
+  /// Positions of the nodes of this mesh, from those of Cluster::mesh().
+  std::vector<Vec3> joined(const std::vector<Vec3>& all) const;
+};
+/// Of a Cluster::mesh(), whose fixed nodes become the first of them, with the mass of all.
+JoinedCluster join_risers(const CanopyMesh& cluster);
+
 }  // namespace ripstop::inline parachute

@@ -39,7 +39,7 @@ Margins case_margins(const Settings& resolved, const CanopyMesh& mesh,
       loads.tape = std::max(loads.tape, spring_tensions[spring]);
     // A cluster has a riser of equal length for each canopy; the hardware below the confluence carries all of them.
     const std::vector<int>& springs = mesh.rigging.riser_springs;
-    const std::size_t count = springs.size() / std::max<std::size_t>(1, mesh.fixed.size());
+    const std::size_t count = springs.size() / static_cast<std::size_t>(mesh.rigging.canopies);
     for (std::size_t first = 0; count > 0 && first < springs.size(); first += count) {
       double load = 0;
       for (std::size_t i = 0; i < count; ++i)

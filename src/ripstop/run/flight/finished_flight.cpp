@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "ripstop/case/cluster.h"
 #include "ripstop/core/error.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/run_folder.h"
@@ -20,6 +21,7 @@ FinishedFlight finished_flight(const std::filesystem::path& folder) {
   if (!holds_flight(folder)) refuse_unfinished(folder, "fly");
   FinishedFlight flight{folder, settings_of_run(folder),
                         from_json_text<FlightResult>(*finished_result(folder), "the result of a flight")};
+  require_one_canopy(flight.resolved, "a descent, an export, a recovery or an opening load");
   if (!flight.result.coefficient || !flight.result.descent)
     throw Error(ExitCode::bad_data,
                 fmt::format("{}: the flight has no coefficient in descent: {}; fly again with another start "

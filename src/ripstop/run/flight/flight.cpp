@@ -150,11 +150,48 @@ void take_means(FlightResult& r, const FlightSummary& s) {
   r.mean_attack = s.mean_attack, r.largest_attack = s.largest_attack;
 }
 
+/// Mean distance of neighbouring nodes of the cloth: nodes of two canopies that are nearer touch [m].
+double contact_gap(const CanopyMesh& mesh) {
+  double area = 0;
+  int cells = 0;
+  for (const Patch& patch : mesh.patches)
+    for (const double cut : patch.cell_area)
+      if (cut > 0) area += cut, ++cells;
+  return std::sqrt(area / cells);
+}
+
+FlightCluster cluster_of_flight(const FlightResult& r, const Settings& resolved, const FreeFlight& flight,
+                                const FreeFlightState& state, const FlightHistory& history, double start_up) {
+  FlightCluster cluster;
+  const ClusterKeys& keys = *resolved.written().cluster;
+  cluster.canopies = flight.canopies(), cluster.first_spread = keys.spread_angle_deg;
+  cluster.pierced = state.pierced;
+  if (r.coefficient && keys.single_descent_drag_coefficient)
+    cluster.factor = *r.coefficient / *keys.single_descent_drag_coefficient;
+  if (!failed(r.ended_by))
+    cluster.motion = summarise_cluster(history.canopies, flight.canopies(), flight.began(), start_up,
+                                       contact_gap(flight.mesh()));
+  return cluster;
+}
+
+std::vector<std::string> canopy_warnings(const FlightCluster& cluster) {
+  std::vector<std::string> all = {
+      "cluster: the flight of a cluster is experimental (docs/guide/cluster-of-canopies.md)"};
+  if (cluster.motion && cluster.motion->first_contact)
+    all.push_back(
+        fmt::format("the canopies of the cluster touch, first at {:.3g} s and for {:.2g} % of the time",
+                    *cluster.motion->first_contact, 100 * cluster.motion->contact_share));
+  return all;
+}
+
 void take_quality(FlightResult& r, const Settings& resolved) {
-  Judgement judgement = judge({{"flight_energy_residual", std::abs(r.energy_residual)},
-                               {"flight_momentum_residual", r.momentum_residual},
-                               {"mass_defect", r.mass_defect},
-                               {"cells_across", r.cells_across}});
+  std::vector<QualityValue> values = {{"flight_energy_residual", std::abs(r.energy_residual)},
+                                      {"flight_momentum_residual", r.momentum_residual},
+                                      {"mass_defect", r.mass_defect},
+                                      {"cells_across", r.cells_across}};
+  if (r.cluster) values.push_back({"pierced_edges", r.cluster->pierced});
+  Judgement judgement = judge(values);
+  if (r.cluster) judgement.add(canopy_warnings(*r.cluster));
   judgement.add(margin_warnings(r.margins));
   judgement.add(mesh_warnings(resolved));
   judgement.add(air_warnings(resolved));
@@ -204,7 +241,8 @@ FlightResult result_of(const Settings& resolved, const FreeFlight& flight, const
   r.title = resolved.title(), r.ended_by = ended_by, r.duration = last.time - flight.began();
   r.payload_mass = *resolved.payload().mass_kg, r.parachute_mass = flight.mass() - r.payload_mass;
   r.air_source = opening_air(resolved).from;
-  r.density = resolved.flow().density_kg_m3, r.reference_area = nominal_area(resolved.parachute());
+  r.density = resolved.flow().density_kg_m3,
+  r.reference_area = flight.canopies() * nominal_area(resolved.parachute());
   if (!start.opening) r.axial_speed = start.speed, r.axial_coefficient = start.coefficient;
   r.known_coefficient = experience(resolved.parachute()).drag_coefficient.if_known();
   const FlightSummary summary = summarise_flight(history.rows);
@@ -224,6 +262,8 @@ FlightResult result_of(const Settings& resolved, const FreeFlight& flight, const
   r.stress = state.coupled.highest_stress;
   r.margins = case_margins(resolved, flight.mesh(), state.coupled.record.peak_tension, r.stress);
   r.flow_steps = state.coupled.air.steps, r.cloth_steps = state.coupled.cloth.steps;
+  if (flight.canopies() > 1)
+    r.cluster = cluster_of_flight(r, resolved, flight, state, history, summary.start_up);
   take_quality(r, resolved);
   if (!start.opening)
     if (const auto warning = mouth_warning(history.rows)) r.warnings.push_back(*warning);
@@ -244,6 +284,7 @@ void look_at_shape(const FreeFlight& flight, FreeFlightState& state) {
   const StressPeak now = stress_peak(flight.mesh(), x, stress);
   StressPeak& highest = state.coupled.highest_stress;
   if (now.von_mises > highest.von_mises) highest = now, state.coupled.highest_stress_time = cloth.time;
+  if (flight.canopies() > 1) state.pierced = std::max(state.pierced, pierced_share(flight.mesh(), x));
   std::vector<Snapshot>& shots = state.coupled.snapshots;
   const double share = cloth.time / flight.problem().settings.duration_s;
   if (double(shots.size()) >= std::min(shots_on_sheet * share + 1, double(shots_on_sheet))) return;
@@ -278,7 +319,7 @@ InflationObserver& FlightObserver::opening() {
 
 Settings flight_settings(const Case& given, const fs::path& from) {
   const auto alone = [](Settings flight) {
-    require_canopy_alone(flight, "a flight");
+    require_no_bodies(flight, "a flight");
     return flight;
   };
   if (from.empty()) return alone(resolve(flight_case(given)));
@@ -323,6 +364,8 @@ FlightSolution run_flight(const Settings& resolved, int threads, FlightObserver&
   std::string ended_by = history.rows.empty() ? "" : end_of(flight, state, history);
   while (ended_by.empty()) {
     history.rows.push_back(flight.advance(state));
+    if (flight.canopies() > 1)
+      for (const CanopyRow& row : flight.canopy_rows(state)) history.canopies.push_back(row);
     ended_by = end_of(flight, state, history);
     const double until = history.rows.back().time - flight.began();
     const bool shape =

@@ -9,6 +9,7 @@
 
 #include "ripstop/case/flying.h"
 #include "ripstop/core/members.h"
+#include "ripstop/fsi/cluster_motion.h"
 #include "ripstop/fsi/flight_summary.h"
 #include "ripstop/run/margins.h"
 #include "ripstop/run/opening/inflation.h"
@@ -48,6 +49,23 @@ void each_member(T& h, Visit&& visit) {
   visit("elastic_energy_after_j", h.elastic_after);
 }
 
+/// Of a flight of a cluster.
+struct FlightCluster {
+  int canopies = 0;
+  double first_spread = 0;              // at the start [deg]
+  std::optional<double> factor;         // C_D0 in descent over that of one canopy, where the case gives that
+  std::optional<ClusterMotion> motion;  // absent as the means of the flight
+  double pierced = 0;                   // largest share of edges of cloth that pierce cloth, of all shapes
+};
+template <Of<FlightCluster> T, class Visit>
+void each_member(T& c, Visit&& visit) {
+  visit("canopies", c.canopies);
+  visit("first_spread_angle_deg", c.first_spread);
+  visit("cluster_factor", c.factor);
+  visit("motion", c.motion);
+  visit("pierced_edges", c.pierced);
+}
+
 /// The numbers of one flight: result.json.
 struct FlightResult {
   std::string title;
@@ -70,8 +88,9 @@ struct FlightResult {
   std::optional<double>
       axial_coefficient;             // C_D0 on the axis (tunnel); absent, as the speed, after an inflation
   std::optional<Handover> handover;  // from an inflation
-  double reference_area = 0;         // S0 [m2]
-  double density = 0;                // at the start [kg/m3]
+  std::optional<FlightCluster> cluster;
+  double reference_area = 0;                          // S0, of all canopies [m2]
+  double density = 0;                                 // at the start [kg/m3]
   std::optional<std::string> air_source;              // absent in results of earlier versions
   double largest_load = 0;                            // of the lines on the payload [N]
   double load_factor = 0;                             // that over the payload's weight
@@ -135,6 +154,7 @@ void each_member(T& r, Visit&& visit) {
   visit("cloth_steps", r.cloth_steps);
   visit("warnings", r.warnings);
   visit("handover", r.handover);
+  visit("cluster", r.cluster);
   visit("usable", r.usable);
 }
 std::string to_json(const FlightResult& result);
@@ -169,6 +189,7 @@ inline long long shapes_until(double time, const FlightSettings& settings) {
 /// All of a flight so far.
 struct FlightHistory {
   std::vector<FreeFlightRow> rows;
+  std::vector<CanopyRow> canopies;  // of a cluster: at every step a row for each canopy
 };
 
 /// Observer of a flight; functions that are not overridden do nothing.

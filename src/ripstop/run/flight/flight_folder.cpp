@@ -11,6 +11,7 @@
 #include "ripstop/output/picture.h"
 #include "ripstop/output/plot.h"
 #include "ripstop/output/vtk.h"
+#include "ripstop/run/canopy_curves.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/march_files.h"
 
@@ -20,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Of the list of members of FreeFlightState: one more with every change of it.
-constexpr int flight_format = 4;
+constexpr int flight_format = 5;
 constexpr const char* what_is_saved = "a checkpoint of a flight";
 
 /// Writes every file of the flight before it calls the next observer.
@@ -73,6 +74,8 @@ void FlightFolder::begin(FreeFlight& flight, FreeFlightState& state, FlightHisto
   }
   const auto steps = static_cast<std::size_t>(saved ? state.coupled.air.steps : 0);
   history.rows = files_.open<FreeFlightRow>("path.csv", steps);
+  if (const int canopies = flight.canopies(); canopies > 1)
+    history.canopies = files_.open<CanopyRow>("canopies.csv", steps * static_cast<std::size_t>(canopies));
   files_.check();
   if (!saved) write_shape(flight, state, 0);
   next_.begin(flight, state, history);
@@ -89,6 +92,7 @@ void FlightFolder::advanced(FreeFlight& flight, const FreeFlightState& state, co
 
 void FlightFolder::save(FreeFlight& flight, const FreeFlightState& state, const FlightHistory& history) {
   files_.add("path.csv", history.rows);
+  if (!history.canopies.empty()) files_.add("canopies.csv", history.canopies);
   files_.save(to_cbor(state, flight_format), &flight.air());
 }
 
@@ -128,6 +132,11 @@ void FlightFolder::write_plots(const FlightHistory& history, const FlightResult&
   draw("angle", {result.title, {"time [s]"}, {"angle [deg]"}, {angle, attack}});
   draw("descent", {result.title, {"time [s]"}, {"rate of descent [m/s]"}, {down}});
   draw("force", {result.title, {"time [s]"}, {"force of the lines on the payload [N]"}, {force}});
+  if (history.canopies.empty()) return;
+  draw("canopies", {result.title,
+                    {"time [s]"},
+                    {"spread angle [deg]"},
+                    canopy_curves(history.canopies, [](const CanopyRow& row) { return row.spread; })});
 }
 
 void FlightFolder::ended(FreeFlight& flight, const FreeFlightState& state, const FlightHistory& history,

@@ -129,8 +129,9 @@ void compare_with_handbook(InflationResult& r, const Settings& resolved, const L
     drag = r.steady_load, from = "the steady load of this opening";
   } else if (!drag && solver.air()) {
     const double coefficient = usual_drag_coefficient(resolved.parachute());
-    drag = coefficient * nominal_area(resolved.parachute()) * q;
-    from = fmt::format("C_D {:.3g} (middle of the handbook range) on S0 at {:.4g} m/s{}", coefficient, speed,
+    drag = solver.canopies() * coefficient * nominal_area(resolved.parachute()) * q;
+    from = fmt::format("C_D {:.3g} (middle of the handbook range) on S0{} at {:.4g} m/s{}", coefficient,
+                       solver.canopies() > 1 ? " of all canopies" : "", speed,
                        speed == resolved.flow().speed_m_s ? "" : ", the speed after the deployment");
   }
   r.estimate = opening_estimate(resolved.parachute(), drag, q, from);
@@ -139,7 +140,7 @@ void compare_with_handbook(InflationResult& r, const Settings& resolved, const L
   if (solver.air() && !flies(solver) && drag && full) r.opening_force_coefficient = peak / *drag;
   if (!flies(solver)) return;
   if (r.estimate.load && full) r.finite_mass_factor = peak / *r.estimate.load;
-  r.handbook = handbook_methods(resolved, speed);
+  if (solver.canopies() == 1) r.handbook = handbook_methods(resolved, speed);
 }
 
 /// The deployment before the opening, and how the canopy has left its container and filled.
@@ -224,6 +225,8 @@ void take_quality(InflationResult& r, const Settings& resolved, const Opening& s
       values.push_back({"peak_after_start_up", peak_time / *r.start_up_time});
   }
   Judgement judgement = judge(values);
+  if (r.cluster)
+    judgement.add({"cluster: the opening of a cluster is experimental (docs/guide/cluster-of-canopies.md)"});
   judgement.add(margin_warnings(r.margins));
   if (flies(solver)) judgement.add(payload_drag_warnings(resolved, r.bodies));
   if (r.outside && !r.container_left)
@@ -300,6 +303,7 @@ InflationResult result_of(const Settings& resolved, const LoadSource& source, co
   r.margins = case_margins(resolved, solver.mesh(), state.record.peak_tension, r.stress, line_peaks(r.stages),
                            r.peak_load);
   compare_with_handbook(r, resolved, source, solver);
+  if (solver.canopies() > 1) r.cluster = summarise_openings(history.canopies, solver.canopies(), start_up);
   take_quality(r, resolved, solver, history);
   r.steps = state.cloth.steps;
   r.step_changes = state.step_changes;
@@ -379,6 +383,8 @@ InflationSolution run_inflation(const Settings& resolved, const LoadSource& sour
   while (state.blocks < solver.blocks()) {
     const std::vector<HistoryRow> rows = advanced(solver, state, history, coarse);
     history.rows.insert(history.rows.end(), rows.begin(), rows.end());
+    if (solver.canopies() > 1)
+      for (const CanopyRow& row : solver.canopy_rows(state)) history.canopies.push_back(row);
     const bool at_frame = solver.at_frame(state);
     if (at_frame) history.frames.push_back(solver.frame(state));
     observer.advanced(solver, state, history, at_frame ? &history.frames.back() : nullptr);

@@ -8,6 +8,7 @@
 #include "ripstop/case/opening.h"
 #include "ripstop/core/members.h"
 #include "ripstop/flight/deployment.h"
+#include "ripstop/fsi/cluster_motion.h"
 #include "ripstop/fsi/opening.h"
 #include "ripstop/fsi/opening_estimate.h"
 #include "ripstop/fsi/summary.h"
@@ -71,9 +72,10 @@ struct InflationResult {
   std::optional<double> height, density;    // at the start, above sea level [m], [kg/m3]
   std::optional<std::string> air_source;    // these five are absent in results of earlier versions
   OpeningEstimate estimate;
-  std::optional<double> opening_force_coefficient;   // C_x of this opening: peak over C_D S q, infinite mass
-  std::optional<double> finite_mass_factor;          // X_1 of this opening: peak over C_x C_D S q
-  std::vector<MethodLoad> handbook;                  // of a payload: the same drop by the handbook methods
+  std::optional<double> opening_force_coefficient;  // C_x of this opening: peak over C_D S q, infinite mass
+  std::optional<double> finite_mass_factor;         // X_1 of this opening: peak over C_x C_D S q
+  std::vector<MethodLoad> handbook;                 // of a payload: the same drop by the handbook methods
+  std::optional<ClusterOpening> cluster;
   std::optional<std::vector<std::string>> warnings;  // absent in results of earlier versions, as is `usable`
   std::optional<bool> usable;                        // false: a quality limit that must hold does not
   long long steps = 0;
@@ -159,6 +161,7 @@ void each_member(T& r, Visit&& visit) {
   visit("measured_peak_n", r.settings.measured_peak_n);
   visit("measured_inflation_time_s", r.settings.measured_inflation_time_s);
   visit("printed_peak_n", r.settings.printed_peak_n);
+  visit("cluster", r.cluster);
   visit("warnings", r.warnings);
   visit("usable", r.usable);
 }
@@ -170,6 +173,7 @@ struct InflationHistory {
   std::vector<InflationFrame> frames;
   std::vector<AirRow> air;             // a step of the air each; none under a uniform pressure
   std::vector<OpeningBodyRow> bodies;  // of the rigid bodies in these steps
+  std::vector<CanopyRow> canopies;     // of a cluster: after every block a row for each canopy
 };
 
 /// Observer of an opening; functions that are not overridden do nothing.

@@ -14,6 +14,7 @@
 #include "ripstop/output/picture.h"
 #include "ripstop/output/plot.h"
 #include "ripstop/output/vtk.h"
+#include "ripstop/run/canopy_curves.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/march_files.h"
 #include "ripstop/run/opening/finished_opening.h"
@@ -84,6 +85,9 @@ void InflationFolder::begin(const Opening& solver, InflationState& state, Inflat
           "balance.csv", static_cast<std::size_t>(state.blocks * frames / solver.blocks()), unwritten(1)),
       {},
       {}};
+  if (const int canopies = solver.canopies(); canopies > 1)
+    history.canopies =
+        files_.open<CanopyRow>("canopies.csv", static_cast<std::size_t>(state.blocks * canopies));
   if (with_air_) history.air = files_.open<AirRow>("air.csv", static_cast<std::size_t>(state.air.steps));
   if (with_bodies_)
     history.bodies =
@@ -110,6 +114,7 @@ void InflationFolder::save(const Opening& solver, const InflationState& state,
                            const InflationHistory& history) {
   files_.add("history.csv", history.rows);
   files_.add("balance.csv", history.frames);
+  if (!history.canopies.empty()) files_.add("canopies.csv", history.canopies);
   if (with_air_) files_.add("air.csv", history.air);
   if (with_bodies_) files_.add("bodies.csv", history.bodies);
   files_.save(to_bytes(state), solver.air());
@@ -121,6 +126,12 @@ void InflationFolder::ended(const Opening& solver, const InflationState& state,
   write_load(solver, history.rows, result);
   write_shapes(solver, state, result.title);
   if (with_air_) write_air_plot(history, result);
+  if (!history.canopies.empty())
+    folder_.write("canopies.png",
+                  Plot{result.title,
+                       {"time from deployment [s]"},
+                       {"riser load [N]"},
+                       canopy_curves(history.canopies, [](const CanopyRow& row) { return row.riser_load; })});
   CsvTable lines{{"line", "peak_tension_n"}, {}};
   for (std::size_t i = 0; i < result.line_peaks.size(); ++i)
     lines.rows.push_back({static_cast<double>(i + 1), result.line_peaks[i]});

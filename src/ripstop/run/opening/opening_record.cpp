@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "ripstop/case/cluster.h"
 #include "ripstop/core/error.h"
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/output/csv.h"
@@ -64,8 +65,9 @@ nlohmann::json opening_result(const fs::path& folder, const Settings& resolved) 
   const std::optional<std::string> text = finished_result(folder);
   auto result = text ? nlohmann::json::parse(*text, nullptr, false) : nlohmann::json();
   if (!result.is_object() || !result.contains("peak_load_n")) refuse_unfinished(folder, "inflate");
-  const double here = nominal_area(resolved.parachute()),
-               there = nominal_area(settings_of_run(folder).parachute());
+  const Settings run = settings_of_run(folder);
+  require_one_canopy(run, "an opening load");
+  const double here = nominal_area(resolved.parachute()), there = nominal_area(run.parachute());
   if (std::abs(here - there) > 1e-6 * here)
     throw Error(
         ExitCode::usage,

@@ -1,5 +1,7 @@
 #include "ripstop/run/report/report_flight.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -8,6 +10,7 @@
 
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/file.h"
+#include "ripstop/fsi/cluster_motion.h"
 #include "ripstop/fsi/flight_record.h"
 #include "ripstop/fsi/opening_end.h"
 #include "ripstop/fsi/opening_record.h"
@@ -122,6 +125,30 @@ std::vector<ReportPlot> plots_from(const Before& before, const std::vector<FreeF
   return {std::move(load), std::move(angle), std::move(speed), std::move(place), std::move(mouth)};
 }
 
+/// Of a cluster: a curve for each canopy.
+template <class Value>
+ReportPlot canopies_over_time(const char* id, const char* title, ReportColumn y,
+                              const std::vector<CanopyRow>& rows, Value value) {
+  ReportPlot plot = over_time(id, title, std::move(y));
+  for (const CanopyRow& row : rows) {
+    const auto k = static_cast<std::size_t>(row.canopy) - 1;
+    if (k == plot.series.size())
+      plot.series.push_back({fmt::format("canopy {}", k + 1), {}, {}, true, false});
+    plot.series[k].x.push_back(row.time), plot.series[k].y.push_back(value(row));
+  }
+  for (ReportSeries& series : plot.series) series = thinned(std::move(series));
+  return plot;
+}
+
+void add_canopies(std::vector<ReportPlot>& plots, const fs::path& folder) {
+  if (!fs::exists(folder / "canopies.csv")) return;
+  const auto rows = read_rows<CanopyRow>(folder / "canopies.csv");
+  plots.push_back(canopies_over_time("spread", "Spread angle of the canopies", {"angle", "°"}, rows,
+                                     [](const CanopyRow& r) { return r.spread; }));
+  plots.push_back(canopies_over_time("risers", "Riser loads of the canopies", {"load", "N"}, rows,
+                                     [](const CanopyRow& r) { return r.riser_load; }));
+}
+
 /// A number of the group "handover" of result.json.
 std::optional<double> handover(const fs::path& folder, const char* key) {
   const auto json = nlohmann::json::parse(read_file(folder / "result.json"), nullptr, false);
@@ -150,6 +177,7 @@ void add_flight(ReportRun& run, const Settings& resolved, const fs::path& folder
   const auto rows = read_rows<FreeFlightRow>(folder / "path.csv");
   const Before before = inflation_in(folder);
   run.plots = plots_from(before, rows);
+  add_canopies(run.plots, folder);
   const double began = handover(folder, "time_s").value_or(0),
                below = handover(folder, "path_angle_deg").value_or(90) * std::numbers::pi / 180;
   std::vector<ShapeFiles> files = before.shapes;
@@ -161,7 +189,7 @@ void add_flight(ReportRun& run, const Settings& resolved, const fs::path& folder
   run.shape = read_shape(files);
   for (ShapeFrame& frame : run.shape.frames)
     turn_up(frame.points, frame.time < began ? path_angle_at(before.air, frame.time, below) : below);
-  const CanopyMesh mesh = parachute_mesh(resolved);
+  const CanopyMesh mesh = flying_mesh(resolved);
   run.shape.part_names = mesh.parts;
   run.shape.anchor = mesh.fixed.empty() ? 0 : mesh.fixed.front();
   add_path(run.shape, before, rows, resolved.flight().height_m.value_or(0));

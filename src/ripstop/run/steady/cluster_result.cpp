@@ -86,16 +86,9 @@ Margins margins_after_failure(const SteadySolver& solver, std::vector<double> te
 }
 
 CanopySize mean_size(const Cluster& cluster, const std::vector<Vec3>& shape) {
-  CanopySize mean;
-  const double share = 1.0 / cluster.canopies();
-  for (int k = 0; k < cluster.canopies(); ++k) {
-    const CanopySize size = canopy_size(cluster.one(), cluster.own(k, shape));
-    mean.projected_diameter += share * size.projected_diameter;
-    mean.projected_area += share * size.projected_area;
-    mean.skirt_diameter += share * size.skirt_diameter;
-    mean.length += share * size.length;
-  }
-  return mean;
+  std::vector<std::vector<Vec3>> canopies;
+  for (int k = 0; k < cluster.canopies(); ++k) canopies.push_back(cluster.own(k, shape));
+  return mean_size(cluster.one(), canopies);
 }
 
 std::vector<std::string> cluster_warnings(const ClusterResult& cluster) {

@@ -48,7 +48,7 @@ FinishedSteady finished_steady(const Settings& resolved, const SteadyResult& res
   return {{},
           resolved,
           result,
-          parachute_mass(resolved),
+          mass_of_canopies(resolved),
           drag_uncertainty(result.last),
           warnings_if_usable(end_of_run(to_json(result), "steady run"))};
 }
@@ -65,7 +65,7 @@ FinishedSteady finished_steady(const std::filesystem::path& folder) {
   const SteadyResult result = steady_result_from_json(*text);
   require_converged(result, folder.string());
   const Settings resolved = settings_of_run(folder);
-  FinishedSteady run{folder, resolved, result, parachute_mass(resolved)};
+  FinishedSteady run{folder, resolved, result, mass_of_canopies(resolved)};
   run.result.last = final_state(folder).iterations.back();
   run.drag_uncertainty = drag_uncertainty(run.result.last);
   run.warnings = warnings_of_used({folder});

@@ -77,8 +77,8 @@ SteadySolution run_with_payload(const Settings& resolved, SteadyObserver& observ
     observer.iterated(run, state, solution.flow);
   }
   solution.result = steady_result(*parts.solver, state, now);
-  solution.result.payload = {*resolved.payload().mass_kg,     parachute_mass(resolved), weight,
-                             own_drag(resolved, state.speed), drag_over_weight(),       state.speeds};
+  solution.result.payload = {*resolved.payload().mass_kg,     mass_of_canopies(resolved), weight,
+                             own_drag(resolved, state.speed), drag_over_weight(),         state.speeds};
   solution.result.wall_time = clock.elapsed();
   observer.ended({now, *parts.solver, parts.engine->name()}, state, solution.result);
   return solution;

@@ -176,7 +176,8 @@ SteadyParts parts_with(SteadyParts old, const Settings& now, const SteadySetting
 void require_steady_memory(const Settings& resolved) {
   const Cost cost = cost_of(resolved);
   require_memory(cost.memory,
-                 fmt::format("a steady run on {:.3g} cells and {:.3g} nodes", cost.cells, cost.nodes));
+                 fmt::format("a steady run on {:.3g} cells and {:.3g} nodes", cost.cells, cost.nodes),
+                 canopy_count(resolved.written()));
 }
 
 SteadySolution run_steady(const Settings& resolved, SteadyObserver& observer,

@@ -1,0 +1,135 @@
+// The first milliseconds of the coupled opening of two small canopies.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "ripstop/case/opening.h"
+#include "ripstop/core/file.h"
+#include "ripstop/output/csv.h"
+#include "ripstop/run/opening/inflation_folder.h"
+#include "tests/refusal.h"
+#include "tests/small_case.h"
+
+namespace ripstop {
+namespace {
+
+constexpr double spread = 24;  // [deg]
+
+Case two_canopies() {
+  Case given = flat_circular_case(1, 400, 20);
+  given.parachute.riser.length_m = 0.6;
+  given.parachute.mesh.line_segment_m = 0.2;
+  given.cluster = ClusterKeys{2, spread, false, {}};
+  given.flow.box_m = Vec3{4, 2.4, 3.2};
+  given.flow.cells = {40, 24, 32};
+  given.flow.canopy_position_m = 1.2;
+  given.flow.core.size_m = Vec3{};
+  given.inflation.air = AirModel::coupled;
+  given.inflation.initial_radius_m = 0.2;
+  given.inflation.duration_s = 6e-3;
+  given.inflation.frames = 3;
+  return given;
+}
+
+InflationProblem problem_of(const Settings& resolved) {
+  return opening_problem(resolved, load_source(resolved), 1);
+}
+
+InflationSolution opened(const std::function<void(Case&)>& edit) {
+  Case given = two_canopies();
+  edit(given);
+  const Settings resolved = resolve(opening_case(checked(given)));
+  InflationObserver nobody;
+  return run_inflation(resolved, load_source(resolved), problem_of(resolved), nobody);
+}
+
+TEST(ClusterInflation, OfEqualCanopiesIsSymmetric) {
+  const InflationSolution solution = opened([](Case&) {});
+  const std::vector<CanopyRow>& rows = solution.history.canopies;
+  ASSERT_GT(rows.size(), 4u);
+  double loads = 0, force = 0;
+  for (std::size_t i = 0; i + 1 < rows.size(); i += 2) {
+    EXPECT_NEAR(rows[i].riser_load, rows[i + 1].riser_load, 1e-6 * (1 + rows[i].riser_load));
+    EXPECT_NEAR(rows[i].spread, rows[i + 1].spread, 1e-6);
+    EXPECT_NEAR(rows[i].mouth_area, rows[i + 1].mouth_area, 1e-6);
+    loads += (rows[i].riser_load + rows[i + 1].riser_load) * std::cos(spread * std::numbers::pi / 180);
+    const auto at =
+        std::find_if(solution.history.rows.begin(), solution.history.rows.end(),
+                     [&](const HistoryRow& row) { return row.time >= rows[i].time * (1 - 1e-9); });
+    force += at->mean;
+  }
+  EXPECT_NEAR(loads / force, 1, 0.05) << "the force on the confluence is that of both risers";
+  const InflationResult& r = solution.result;
+  ASSERT_TRUE(r.cluster);
+  EXPECT_NEAR(r.cluster->peak_difference, 0, 1e-12);
+  EXPECT_NEAR(r.cluster->canopies[0].peak_load, r.cluster->canopies[1].peak_load, 1e-4);
+  EXPECT_LT(r.energy_residual, 0.02);
+  EXPECT_LT(r.momentum_residual.value(), 0.01);
+}
+
+TEST(ClusterInflation, StartsWithEveryCanopyFoldedAtRestAboutItsOwnAxis) {
+  const Settings resolved = resolve(opening_case(checked(two_canopies())));
+  InflationProblem both = problem_of(resolved);
+  ThreadTeam team(1);
+  const OpeningCloth one(both.mesh, both.settings, {}, both.symmetry, false, team, {}),
+      two(both.mesh, both.settings, {}, both.symmetry, false, team, both.cluster);
+  EXPECT_EQ(two.mesh().node_count(), 2 * one.mesh().node_count() - 1);
+  EXPECT_EQ(two.mesh().fixed.size(), 1u);
+  EXPECT_NEAR(two.elastic_energy_at_start(), 2 * one.elastic_energy_at_start(), 1e-9);
+  const std::vector<Vec3> folded = one.folded().positions;
+  for (const std::vector<Vec3>& canopy : two.upright(two.folded().positions)) {
+    ASSERT_EQ(canopy.size(), folded.size());
+    for (std::size_t n = 0; n < canopy.size(); ++n) EXPECT_LT(norm(canopy[n] - folded[n]), 1e-6);
+  }
+}
+
+TEST(ClusterInflation, CanopiesWithDifferentFoldsOpenDifferently) {
+  const InflationSolution solution = opened([](Case& given) {
+    given.inflation.imperfection_m = 0.01, given.inflation.imperfection_seed = 1;
+    given.inflation.duration_s = 2e-3, given.inflation.frames = 1;
+  });
+  const std::vector<CanopyRow>& rows = solution.history.canopies;
+  EXPECT_GT(std::abs(rows[rows.size() - 1].mouth_area - rows[rows.size() - 2].mouth_area), 1e-6);
+}
+
+TEST(ClusterInflation, RefusesUniformPressureReefingAndDeployment) {
+  const auto refused = [](const std::function<void(Case&)>& edit) {
+    Case given = two_canopies();
+    edit(given);
+    const Settings resolved = resolve(opening_case(checked(given)));
+    return refusal_of([&] { problem_of(resolved); }, ExitCode::usage);
+  };
+  const auto uniform = [](Case& given) {
+    given.inflation.air = AirModel::uniform, given.inflation.pressure_pa = 100;
+  };
+  const auto reefed = [](Case& given) { given.inflation.reefing = {{1.4, 3e-3, {}}}; };
+  const auto deployed = [](Case& given) {
+    given.deployment.emplace(), given.payload.mass_kg = 2, given.payload.deployment_speed_m_s = 20;
+    given.inflation.initial_radius_m.reset();
+  };
+  EXPECT_EQ(refused(uniform).find("inflation.air = \"uniform\""), 0u) << refused(uniform);
+  EXPECT_EQ(refused(reefed).find("inflation.reefing"), 0u) << refused(reefed);
+  EXPECT_EQ(refused(deployed).find("deployment"), 0u) << refused(deployed);
+}
+
+TEST(ClusterInflation, InAFolderHasARowForEachCanopy) {
+  const TemporaryFolder folder("cluster-inflation");
+  Case given = two_canopies();
+  given.inflation.duration_s = 2e-3, given.inflation.frames = 1;
+  const Settings resolved = resolve(opening_case(checked(given)));
+  InflationObserver nobody;
+  InflationFolderSettings settings;
+  settings.run.folder = folder.path / "run", settings.threads = 1;
+  ASSERT_TRUE(run_inflation_in(
+      settings, resolved, load_source(resolved), [&] { return problem_of(resolved); }, nobody));
+  const CsvTable rows = read_csv(folder.path / "run" / "canopies.csv");
+  EXPECT_GE(rows.rows.size(), 2u);
+  EXPECT_EQ(rows.rows.size() % 2, 0u);
+  EXPECT_NE(read_file(folder.path / "run" / "result.json").find("peak_riser_load_n"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace ripstop
