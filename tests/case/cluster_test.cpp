@@ -119,16 +119,12 @@ TEST(ClusterCase, CanopiesThatTouchAreRefusedWithTheAngleAndTheRiserThatSeparate
       << problems.front().message;
 }
 
-TEST(ClusterCase, AnOpeningComputesOneCanopy) {
+TEST(ClusterCase, OtherCommandsComputeOneCanopy) {
   const Settings resolved = resolve(checked(cluster_case(3, 20)));
-  const std::string opening = refusal_of(
-      [&] {
-        opening_problem(resolved, LoadSource{"1 Pa", {}}, 1, {});
-      },
-      ExitCode::usage);
-  EXPECT_EQ(opening,
-            "cluster.canopies = 3: an opening computes one canopy; only a steady run, a sweep and a flight "
-            "compute a cluster (remove the table, or --unset cluster)");
+  EXPECT_EQ(
+      refusal_of([&] { require_one_canopy(resolved, "an opening load"); }, ExitCode::usage),
+      "cluster.canopies = 3: an opening load computes one canopy; only a steady run, a sweep, a flight and a "
+      "coupled inflation compute a cluster (remove the table, or --unset cluster)");
 }
 
 TEST(ClusterCase, TheFineCellsOfAFlightContainTheCanopiesUpToTheWidestAngle) {

