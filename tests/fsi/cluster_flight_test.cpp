@@ -127,6 +127,7 @@ TEST(ClusterMotion, SmallestDistanceIsThatOfAllPairs) {
   EXPECT_EQ(smallest_distance(a, b), least);
   EXPECT_EQ(smallest_distance(b, a), least);
   EXPECT_EQ(smallest_distance(a, a), 0);
+  EXPECT_NEAR(smallest_distance({{0.1, 0, 0}, {0, 5, 0}}, {{1.3, 0, 0}, {1.1, 5, 0}}), 1.1, 1e-12);
 }
 
 TEST(ClusterMotion, MeansAreOverTimeAfterTheStartUp) {
