@@ -139,6 +139,8 @@ Opening opening_of(const Case& given, const OptionalSource& steady, std::optiona
 }
 
 void add_inflate(py::module_& module) {
+  add_class<CanopyOpening>(module, "CanopyOpening", "Opening of one canopy of a cluster.");
+  add_class<ClusterOpening>(module, "ClusterOpening", "Openings of the canopies of a cluster.");
   add_class<Snapshot>(module, "InflationShot",
                       "Shape during the opening: time [s], positions [m], von_mises [N/m].");
   add_class<StageSummary>(module, "StageSummary", "Results of one stage of a reefed opening.");

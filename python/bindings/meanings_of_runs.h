@@ -254,6 +254,17 @@ Inflation.added_mass_kg: added mass of the canopy at the end
 Inflation.deployment: deployment before the opening; None: without one
 Inflation.speed_at_end_m_s: speed of the payload at the end; None: fixed end
 Inflation.path_angle_at_end_deg: angle of the path of the payload below the horizon at the end
+Inflation.cluster: openings of the canopies of a cluster; None: a single canopy
+CanopyOpening.peak_riser_load_n: peak riser load after the start-up, at the ends of blocks of steps
+CanopyOpening.peak_riser_load_time_s: time of this peak since deployment
+CanopyOpening.last_riser_load_n: riser load at the end, mean over the last fifth
+CanopyOpening.filling_time_s: time at which the mouth first has its mean area of the last fifth; None: not filled
+CanopyOpening.last_spread_angle_deg: spread angle at the end
+ClusterOpening.canopies: opening of each canopy
+ClusterOpening.peak_time_difference_s: largest difference between the times of the peaks
+ClusterOpening.filling_time_difference_s: largest difference between the filling times; None: a canopy has not filled
+ClusterOpening.smallest_gap_m: smallest distance between cloth nodes of two canopies
+ClusterOpening.smallest_gap_time_s: time of the smallest gap
 Inflation.steady_drag_returned: steady load over the given steady drag
 Inflation.damping_n_s_m3: absolute damping C_a
 Inflation.quadratic_damping_n_s2_m4: quadratic absolute damping

@@ -1,8 +1,10 @@
 // A short flight of two small canopies, in a folder.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "ripstop/case/flying.h"
 #include "ripstop/core/file.h"
@@ -61,6 +63,35 @@ TEST(ClusterFlightRun, HasTheCanopiesInItsResultAndFiles) {
   EXPECT_NEAR(riser->load / std::max(cluster.motion->canopies[0].largest_load,
                                      cluster.motion->canopies[1].largest_load),
               1, 0.2);
+}
+
+/// Ends in the middle, after a checkpoint.
+struct KilledClusterFlight : FlightObserver {
+  void advanced(FreeFlight&, const FreeFlightState& state, const FlightHistory&, bool) override {
+    if (state.coupled.air.steps == 6) throw std::runtime_error("killed");
+  }
+};
+struct ResumedClusterFlight : FlightObserver {
+  std::size_t rows = 0;
+  void begin(FreeFlight&, FreeFlightState&, FlightHistory& history) override {
+    rows = history.canopies.size();
+  }
+};
+
+TEST(ClusterFlightRun, KilledAndResumedHasTheSameCanopiesByteForByte) {
+  const TemporaryFolder folder("cluster-flight-killed");
+  Case given = two_canopies();
+  given.coupling.max_iterations = 1, given.flight.duration_s = 0.03;
+  const Settings resolved = flight_settings(checked(given));
+  FlightObserver nobody;
+  ASSERT_TRUE(run_flight_in({{folder.path / "whole"}, 1, 0}, resolved, nobody));
+  KilledClusterFlight killed;
+  EXPECT_THROW(run_flight_in({{folder.path / "parts"}, 1, 0}, resolved, killed), std::runtime_error);
+  ResumedClusterFlight resumed;
+  ASSERT_TRUE(run_flight_in({{folder.path / "parts"}, 1, 0}, resolved, resumed));
+  EXPECT_GE(resumed.rows, 8u);
+  for (const char* file : {"path.csv", "canopies.csv", "result.json"})
+    EXPECT_EQ(read_file(folder.path / "whole" / file), read_file(folder.path / "parts" / file)) << file;
 }
 
 }  // namespace
