@@ -99,7 +99,7 @@ TEST(Bodies, ImpossibleOnesAreRefusedWithTheirKey) {
 
 TEST(Bodies, FlightsRefuseThem) {
   const Settings resolved = resolve(checked(behind_a_cylinder(1)));
-  EXPECT_NE(refusal_of([&] { require_canopy_alone(resolved, "a flight"); }, ExitCode::usage)
+  EXPECT_NE(refusal_of([&] { require_no_bodies(resolved, "a flight"); }, ExitCode::usage)
                 .find("body.rocket: in a flight the payload moves"),
             std::string::npos);
 }

@@ -161,11 +161,6 @@ std::vector<FlowBody> rigid_bodies(const Settings& resolved) {
   return rigid;
 }
 
-void require_canopy_alone(const Settings& resolved, const char* what) {
-  require_one_canopy(resolved, what);
-  require_no_bodies(resolved, what);
-}
-
 void require_no_bodies(const Settings& resolved, const char* what) {
   if (resolved.written().bodies.empty()) return;
   throw Error(

@@ -71,9 +71,7 @@ double usual_trailing_distance(const Design& parachute);
 /// The bodies of a case as bodies of a flow, in the order of their names. Throws Error(bad_data) for a surface that is
 /// not closed, and for a file that is no STL.
 std::vector<FlowBody> rigid_bodies(const Settings& resolved);
-/// Throws Error(usage) for a case with bodies or a cluster: in `what` the payload moves relative to the box.
-void require_canopy_alone(const Settings& resolved, const char* what);
-/// Throws Error(usage) for a case with rigid bodies: `what` computes canopies alone.
+/// Throws Error(usage) for a case with bodies: in `what` the payload moves relative to the box.
 void require_no_bodies(const Settings& resolved, const char* what);
 
 }  // namespace ripstop::inline cases

@@ -84,6 +84,7 @@ void InflationFolder::begin(const Opening& solver, InflationState& state, Inflat
       files_.open<InflationFrame>(
           "balance.csv", static_cast<std::size_t>(state.blocks * frames / solver.blocks()), unwritten(1)),
       {},
+      {},
       {}};
   if (const int canopies = solver.canopies(); canopies > 1)
     history.canopies =
