@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "ripstop/case/case.h"
-#include "ripstop/case/cluster.h"
 #include "ripstop/case/settings.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/toml/fields.h"
