@@ -11,14 +11,14 @@
 namespace ripstop {
 namespace {
 
-constexpr double step = 0.01, period = 2.5, descent = 5, drift = 1.5;
+constexpr double time_step = 0.01, period = 2.5, descent = 5, drift = 1.5;
 
 /// Tilts a cos(wt) towards x and b sin(wt) towards y [deg].
 std::vector<FreeFlightRow> swing(double a, double b, double duration) {
   std::vector<FreeFlightRow> rows;
-  for (int n = 1; n <= std::lround(duration / step); ++n) {
+  for (int n = 1; n <= std::lround(duration / time_step); ++n) {
     FreeFlightRow row;
-    row.time = n * step, row.step = step;
+    row.time = n * time_step, row.step = time_step;
     const double phase = 2 * std::numbers::pi * row.time / period;
     row.tilt_x = a * std::cos(phase), row.tilt_y = b * std::sin(phase);
     row.angle = std::hypot(row.tilt_x, row.tilt_y);

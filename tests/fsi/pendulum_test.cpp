@@ -18,7 +18,7 @@ using std::numbers::pi;
 
 constexpr int n = 9;  // nodes along and across the disk
 constexpr double radius = 0.25, arm = 0.6, areal_mass = 0.25, stiffness = 2e4, gravity = 9.81, density = 1.2;
-constexpr double released_at = 3 * pi / 180, step = 0.01;  // [rad], [s]
+constexpr double released_at = 3 * pi / 180, time_step = 0.01;  // [rad], [s]
 
 /// In the plane x = 0 about the origin. Struts to the pivot above and to three light nodes make one rigid body of it.
 CanopyMesh pendulum() {
@@ -88,7 +88,7 @@ double measured_period(const CanopyMesh& mesh) {
   ThreadTeam team(1);
   const ClothPtr cloth = make_cloth(mesh, {});
   CoupledFlow air({still_air(), 0.5, make_cartesian(settings)}, mesh);
-  const AdaptiveStepper stepper(AdaptiveStepper::Step::renewed, 0.5, step, team);
+  const AdaptiveStepper stepper(AdaptiveStepper::Step::renewed, 0.5, time_step, team);
   std::vector<Vec3> x = mesh.start;
   const Vec3 pivot = mesh.start[n * n];
   for (Vec3& p : x) {
@@ -107,7 +107,7 @@ double measured_period(const CanopyMesh& mesh) {
   for (long long row = 0; passed.size() < 2 && row < 400; ++row) {
     take_coupled_step(air, stepper, *cloth, {row, 1, 1}, around, team, state);
     const double now = positions(state.cloth, *cloth)[n * n / 2].x;
-    if (now * before < 0) passed.push_back(state.cloth.time - step * now / (now - before));
+    if (now * before < 0) passed.push_back(state.cloth.time - time_step * now / (now - before));
     before = now;
   }
   return passed.size() < 2 ? 0 : 2 * (passed[1] - passed[0]);
