@@ -220,9 +220,8 @@ void add_fly(CLI::App& app, int& status) {
   command->footer(
       "The canopy starts in equilibrium on the axis, at the speed at which its drag equals the weight, and\n"
       "is released at an angle. With --deploy or --from the flight continues from the end of a coupled\n"
-      "inflation. Air, cloth and payload are stepped together in time. A case with [cluster] flies with all "
-      "of\n"
-      "its canopies.\n"
+      "inflation. Air, cloth and payload are stepped together in time. A case with\n"
+      "[cluster] flies with all of its canopies.\n"
       "Example: ripstop fly examples/flat-circular/case.toml --mass 2.4 --duration 30 --cloth-nodes 2000");
   command->add_option("case", options->case_file, "Case file (TOML)")->required();
   add_key_option(*command, "--mass", "payload.mass_kg", "Mass of the payload, without the parachute [kg]",

@@ -204,13 +204,11 @@ void check_cluster_opening(const Settings& opening) {
   if (!opening.inflation().reefing.empty())
     refuse(
         "inflation.reefing: reefing lines are computed for one canopy only; remove them, or compute one "
-        "canopy "
-        "(--unset cluster)");
+        "canopy (--unset cluster)");
   if (given.deployment)
     refuse(
         "deployment: the opening of a cluster begins with folded canopies outside of their container; remove "
-        "the "
-        "table and give inflation.initial_radius_m, or compute one canopy (--unset cluster)");
+        "the table and give inflation.initial_radius_m, or compute one canopy (--unset cluster)");
 }
 
 }  // namespace

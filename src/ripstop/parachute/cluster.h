@@ -1,7 +1,6 @@
 // Two to four equal canopies, each on its riser, whose risers end at one confluence.
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "ripstop/core/vec3.h"
@@ -62,8 +61,7 @@ class Cluster {
   /// The part of an array over all canopies that belongs to canopy `k`.
   template <class T>
   std::vector<T> part(int k, const std::vector<T>& all) const {
-    const auto count = static_cast<std::ptrdiff_t>(all.size()) / layout_.canopies;
-    return {all.begin() + k * count, all.begin() + (k + 1) * count};
+    return of_canopy(all, k, layout_.canopies);
   }
 
  private:
