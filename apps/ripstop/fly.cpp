@@ -102,6 +102,12 @@ void print_flight(const FlightResult& r, const fs::path& folder, double wall_tim
   row("largest force of the lines",
       fmt::format("{:.1f} N, {:.2f} times the payload's weight", r.largest_load, r.load_factor));
   if (r.cluster) print_canopies(*r.cluster);
+  for (const FlightBody& body : r.bodies.value_or(std::vector<FlightBody>()))
+    row(("body " + body.name).c_str(),
+        fmt::format(
+            "drag {:.3g} N, drag area {} ({:.3f} on {:.4g} m2); {:.1f} deg between its axis and the air",
+            body.drag, with_error(body.drag_area, body.drag_area_error, " m2", 5), body.drag_coefficient,
+            body.reference_area, body.mean_incidence));
   print_margins(r.margins);
   if (r.air_source) row("air", fmt::format("{:.4g} kg/m3 at the start ({})", r.density, *r.air_source));
   row("path", fmt::format("{:.1f} m down, {:.1f} m over the ground", r.height_lost, r.distance));
@@ -221,7 +227,7 @@ void add_fly(CLI::App& app, int& status) {
       "The canopy starts in equilibrium on the axis, at the speed at which its drag equals the weight, and\n"
       "is released at an angle. With --deploy or --from the flight continues from the end of a coupled\n"
       "inflation. Air, cloth and payload are stepped together in time. A case with\n"
-      "[cluster] flies with all of its canopies.\n"
+      "[cluster] flies with all of its canopies, one with [body.NAME] with its rigid bodies.\n"
       "Example: ripstop fly examples/flat-circular/case.toml --mass 2.4 --duration 30 --cloth-nodes 2000");
   command->add_option("case", options->case_file, "Case file (TOML)")->required();
   add_key_option(*command, "--mass", "payload.mass_kg", "Mass of the payload, without the parachute [kg]",

@@ -108,6 +108,7 @@ void add_fly(py::module_& module) {
                           "Spread angle and loads of one canopy of a cluster in flight.");
   add_class<ClusterMotion>(module, "ClusterMotion",
                            "Spread angles, loads and distances of the canopies of a cluster in flight.");
+  add_class<FlightBody>(module, "FlightBody", "Mean loads on a rigid body in flight.");
   add_class<FlightCluster>(module, "FlightCluster", "The cluster of a flight.");
   add_class<Handover>(module, "Handover", "End of an inflation and start of the flight that continues it.");
   add_class<FlightProgress>(module, "FlightProgress", "Progress of a flight.");

@@ -9,6 +9,7 @@
 #include "../refusal.h"
 #include "../small_case.h"
 #include "ripstop/case/assemble.h"
+#include "ripstop/case/flying.h"
 #include "ripstop/case/opening.h"
 #include "ripstop/case/resolve.h"
 #include "ripstop/core/toml/problem.h"
@@ -97,11 +98,18 @@ TEST(Bodies, ImpossibleOnesAreRefusedWithTheirKey) {
             "body.canopy");
 }
 
-TEST(Bodies, FlightsRefuseThem) {
-  const Settings resolved = resolve(checked(behind_a_cylinder(1)));
-  EXPECT_NE(refusal_of([&] { require_no_bodies(resolved, "a flight"); }, ExitCode::usage)
-                .find("body.rocket: in a flight the payload moves"),
-            std::string::npos);
+TEST(Bodies, AreInTheFineCellsOfAFlightAndInItsDomainAt45Degrees) {
+  Case given = behind_a_cylinder(4);
+  given.payload.mass_kg = 3;
+  const Settings flight = resolve(flight_case(checked(given)));
+  const FlowSettings& flow = flight.flow();
+  const BodiesAhead ahead = bodies_ahead(given);
+  EXPECT_GT(ahead.front, 4);
+  EXPECT_LE(flow.core.start_m, flow.canopy_position_m - ahead.front);
+  EXPECT_GE(flow.box_m.x, 2 * ahead.front * std::sin(std::acos(-1.0) / 4));
+  const double cell = nominal_diameter(given.parachute) / given.flight.cells_across;
+  EXPECT_NEAR(flow_grid(flow).spacing().z, cell, 0.15 * cell);
+  EXPECT_NEAR(flow_grid(flow).spacing().x, cell, 0.15 * cell);
 }
 
 TEST(Bodies, AreInTheFlowOfACoupledInflation) {

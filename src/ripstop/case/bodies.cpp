@@ -144,6 +144,17 @@ double usual_trailing_distance(const Design& parachute) {
   return std::sqrt(std::max(0.0, length * length - radius * radius)) + parachute.riser.length_m;
 }
 
+BodiesAhead bodies_ahead(const Case& given) {
+  BodiesAhead ahead;
+  const double usual = usual_trailing_distance(given.parachute);
+  for (const auto& [name, body] : given.bodies) {
+    const BodySize size = size_of(body);
+    ahead.front = std::max(ahead.front, body.trailing_distance_m.value_or(usual) + size.length);
+    ahead.width = std::max(ahead.width, size.width);
+  }
+  return ahead;
+}
+
 std::vector<FlowBody> rigid_bodies(const Settings& resolved) {
   std::vector<FlowBody> rigid;
   for (const auto& [name, keys] : resolved.written().bodies) {
@@ -158,16 +169,6 @@ std::vector<FlowBody> rigid_bodies(const Settings& resolved) {
     rigid.back().moment_about = aft;
   }
   return rigid;
-}
-
-void require_no_bodies(const Settings& resolved, const char* what) {
-  if (resolved.written().bodies.empty()) return;
-  throw Error(
-      ExitCode::usage,
-      fmt::format(
-          "body.{}: in {} the payload moves through the cells of the flow, but rigid bodies must be at "
-          "rest in them; remove the table (steady runs, sweeps, stability and inflations include bodies)",
-          resolved.written().bodies.begin()->first, what));
 }
 
 }  // namespace ripstop::inline cases

@@ -68,10 +68,17 @@ BodySize size_of(const BodyKeys& keys);
 /// From the skirt of the inflated canopy to the end of the riser, about [m].
 double usual_trailing_distance(const Design& parachute);
 
+/// How far the bodies extend upstream of the skirt, and the width of the widest one [m].
+struct BodiesAhead {
+  double front = 0, width = 0;
+  /// Their front, half a width or four widths farther upstream: there the fine cells, and the domain begin.
+  double fine_front() const { return front + 0.5 * width; }
+  double domain_front() const { return front + 4 * width; }
+};
+BodiesAhead bodies_ahead(const Case& given);
+
 /// The bodies of a case as bodies of a flow, in the order of their names. Throws Error(bad_data) for a surface that is
 /// not closed, and for a file that is no STL.
 std::vector<FlowBody> rigid_bodies(const Settings& resolved);
-/// Throws Error(usage) for a case with bodies: in `what` the payload moves relative to the box.
-void require_no_bodies(const Settings& resolved, const char* what);
 
 }  // namespace ripstop::inline cases

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "ripstop/case/bodies.h"
 #include "ripstop/case/resolve.h"
 #include "ripstop/flow/flow_grid.h"
 
@@ -14,6 +15,8 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 constexpr double growth = 1.2;  // of the cells outside of the core: a coarse grid in a wide box
 constexpr int multiple = 4;     // of cells along an axis, for the multigrid
+// The box contains the payload with its bodies at this angle of the lines from its axis (assumed) [deg].
+constexpr double widest_swing = 45;
 // Without cluster.widest_spread_angle_deg: at least so wide, and so much wider than at the start (assumed) [deg].
 constexpr double usual_widest = 45, wider_than_first = 15;
 
@@ -57,6 +60,28 @@ void take_cluster_cells(Case& flight, double over_diameter) {
   flow.cells = {across, across, cells_along(core.z, before, length - before - core.z, h)};
 }
 
+// The core of one canopy, longer upstream by the bodies as they hang on the axis. The box contains them at the widest
+// swing about the canopy.
+void take_body_cells(Case& flight, double over_diameter) {
+  const double d = inflated_diameter(flight.parachute),
+               h = nominal_diameter(flight.parachute) / over_diameter;
+  const BodiesAhead ahead = bodies_ahead(flight);
+  const double ahead_of_skirt = std::max(d * sheet_skirt, ahead.domain_front()),
+               core_ahead = std::max(0.25 * d * sheet_core.z, ahead.fine_front()),
+               behind = 0.75 * d * sheet_core.z,
+               swung = 2 * (ahead.front * std::sin(degree * widest_swing) + ahead.width);
+  const Vec3 core{d * sheet_core.x, d * sheet_core.y, core_ahead + behind};
+  const double side = std::max(d * sheet_box.x, swung), aside = 0.5 * (side - core.x),
+               length = ahead_of_skirt + std::max(d * (sheet_box.z - sheet_skirt), core.z - ahead_of_skirt),
+               before = ahead_of_skirt - core_ahead;
+  FlowKeys& flow = flight.flow;
+  flow.box_m = Vec3{side, side, length};
+  flow.core.size_m = core, flow.core.start_m = before;
+  flow.canopy_position_m = ahead_of_skirt;
+  const int across = cells_along(core.x, aside, aside, h);
+  flow.cells = {across, across, cells_along(core.z, before, length - before - core.z, h)};
+}
+
 }  // namespace
 
 double widest_in_flight(const ClusterKeys& keys) {
@@ -76,6 +101,8 @@ void take_flight_cells(Case& flight, double across) {
   if (flow.cells || flow.box_m || flow.core.size_m) return;
   if (flight.cluster)
     take_cluster_cells(flight, across);
+  else if (!flight.bodies.empty())
+    take_body_cells(flight, across);
   else
     flow.cells = coarse_cells(flight, across);
   if (!flow.core.growth) flow.core.growth = growth;

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "ripstop/case/assemble.h"
-#include "ripstop/case/bodies.h"
 #include "ripstop/case/cluster.h"
 #include "ripstop/case/cost.h"
 #include "ripstop/case/flight_cells.h"
@@ -119,7 +118,6 @@ FlightProblem problem_at(const Settings& flight, double rate, int threads) {
         *flight.payload().mass_kg, rate, dynamic, weight));
   FlightProblem problem;
   problem.mesh = parachute_mesh(flight);
-  require_no_bodies(flight, "a flight");
   problem.air = {flow_problem(flight), flight.flight().courant};
   problem.settings = flight.flight();
   problem.cloth = flight.inflation();

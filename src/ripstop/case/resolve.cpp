@@ -113,20 +113,14 @@ struct Room {
   int cells = 0;
 };
 
-/// Half a width of the widest body upstream of the foremost one in the core, and 4 in the domain.
 Room room_for_bodies(const Case& written, const FlowSettings& flow, double d) {
   if (written.bodies.empty() || flow.porosity_model != PorosityModel::sheet ||
       flow.tunnel.kind != TunnelKind::free_air)
     return {};
-  double front = 0, width = 0;  // from the skirt [m]
-  for (const auto& [name, body] : written.bodies) {
-    const BodySize size = size_of(body);
-    front = std::max(front, body.trailing_distance_m.value_or(0) + size.length);
-    width = std::max(width, size.width);
-  }
+  const BodiesAhead ahead = bodies_ahead(written);
   Room room;
-  room.domain = std::max(0.0, front + 4 * width - d * sheet_skirt);
-  room.core = std::max(0.0, front + 0.5 * width - 0.25 * d * sheet_core.z);
+  room.domain = std::max(0.0, ahead.domain_front() - d * sheet_skirt);
+  room.core = std::max(0.0, ahead.fine_front() - 0.25 * d * sheet_core.z);
   FlowSettings alone;
   alone.box_m = d * sheet_box, alone.cells = sheet_defaults.cells;
   alone.core.size_m = d * sheet_core, alone.core.growth = sheet_defaults.growth;

@@ -118,6 +118,10 @@ void Flow::add_to(FieldMean& mean) const {
   mean.add(field());
 }
 
+void Flow::place_all(const std::vector<Placement>& bodies) {
+  for (const Placement& placed : bodies) place(placed.body, placed.surface, placed.motion);
+}
+
 FlowStep Flow::march(int, double, const StepReport&) {
   throw no_time();
 }

@@ -57,12 +57,23 @@ struct PorousCells {
   double forchheimer = 0;  // f [1/m]
 };
 
+/// Of a body that moves as a whole, in a time step of the flow.
+struct RigidMotion {
+  Vec3 velocity;  // of the point `about` [m/s]
+  Vec3 spin;      // angular velocity [rad/s]
+  Vec3 about;     // [m]
+
+  Vec3 at(Vec3 point) const { return velocity + cross(spin, point - about); }
+};
+
 /// Motion of a sheet, triangle by triangle, during a time step of the flow: with `velocity` where `pressure`
-/// is the drop across it, plus `yields` (compliance) along its normal for every additional pascal.
+/// is the drop across it, plus `yields` (compliance) along its normal for every additional pascal. Or that of a rigid
+/// body.
 struct SheetMotion {
-  std::vector<Vec3> velocity;    // [m/s]; empty: at rest
-  std::vector<double> yields;    // [m/(s Pa)]; empty: it moves as given, independent of the flow
-  std::vector<double> pressure;  // inside over outside [Pa]; empty: none
+  std::vector<Vec3> velocity;             // [m/s]; empty: at rest
+  std::vector<double> yields;             // [m/(s Pa)]; empty: it moves as given, independent of the flow
+  std::vector<double> pressure;           // inside over outside [Pa]; empty: none
+  std::optional<RigidMotion> rigid = {};  // in place of the others
 };
 
 /// Of a rigid body without holes, practically: at 100 Pa the air passes at 0.1 mm/s.
@@ -225,6 +236,13 @@ using StepReport = std::function<bool(const FlowStep&)>;
 
 class FieldMean;
 
+/// New position of one of the bodies of a flow, with its motion if it is a sheet.
+struct Placement {
+  std::size_t body = 0;  // of FlowProblem::bodies
+  std::vector<Triangle> surface;
+  SheetMotion motion = {};
+};
+
 /// A flow in progress. It continues from its present state, independent of earlier calls.
 class Flow {
  public:
@@ -233,6 +251,8 @@ class Flow {
   /// New position of one of the bodies, with its motion if it is a sheet. The flow continues from its present state.
   virtual void place(std::size_t body, const std::vector<Triangle>& surface,
                      const SheetMotion& motion = {}) = 0;
+  /// The same of several bodies.
+  virtual void place_all(const std::vector<Placement>& bodies);
   /// At most so many iterations; fewer when every residual falls below `residual` or the report stops it.
   /// Throws Error(diverged) with iteration, field and place, Error(external) where a child program fails.
   virtual FlowAdvance advance(int iterations, double residual, const FlowReport& report = {}) = 0;

@@ -199,8 +199,10 @@ FlowStep CoupledFlow::step(const std::vector<Vec3>& positions, const ClothMotion
                            const Surroundings& surroundings, AirMemory& memory) {
   flow_.set_density_ratio(surroundings.density_ratio);
   surface_ = surface_of(cells_, positions);
+  for (const Placement& placed : surroundings.rigid) bodies_.at(placed.body).surface = placed.surface;
   require_apart(surface_, bodies_);
-  flow_.place(surface_, sheet_motion(positions, predicted, length, surroundings.guided, memory));
+  flow_.place(surface_, sheet_motion(positions, predicted, length, surroundings.guided, memory),
+              surroundings.rigid);
   if (surroundings.moves) flow_.stream(surroundings.stream, surroundings.gained);
   ++memory.steps;
   return flow_.step(length);

@@ -23,8 +23,7 @@
 namespace ripstop::inline fsi {
 
 struct AirProblem {
-  FlowProblem
-      flow;  // the canopy, a sheet whose surface is left to the opening, then rigid bodies at rest in the box
+  FlowProblem flow;  // the canopy, a sheet whose surface is left to the opening, then rigid bodies
   double courant = 0.5;
   std::shared_ptr<FlowEngine> engine = {};
   std::optional<Payload> payload = {};      // absent: the riser's end is held
@@ -107,7 +106,8 @@ struct Surroundings {
   double density_ratio = 1;  // of the air to that at deployment
   int node = -1;             // on which `force` acts [N]; -1: none
   Vec3 force;
-  std::vector<int> guided = {};  // Loads::guided in the step
+  std::vector<int> guided = {};       // Loads::guided in the step
+  std::vector<Placement> rigid = {};  // of the rigid bodies; empty: at rest in the box
 };
 
 /// Predicted motion of the cloth over one step of the flow.

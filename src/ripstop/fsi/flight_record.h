@@ -1,6 +1,9 @@
 // Records of a free flight: a row for each step of the flow, and the state of a checkpoint.
 #pragma once
 
+#include <vector>
+
+#include "ripstop/fsi/carried_bodies.h"
 #include "ripstop/fsi/opening_record.h"
 
 namespace ripstop::inline fsi {
@@ -13,7 +16,7 @@ struct FreeFlightRow {
   double angle = 0;  // oscillation: between the vertical and the line from payload to skirt centroid [deg]
   double tilt_x = 0, tilt_y = 0;  // its components: inclination of that line towards x and y [deg]
   double attack = 0;              // angle of attack: between that line and the relative wind [deg]
-  Vec3 air_force;                 // of the air on the canopy [N]
+  Vec3 air_force;                 // of the air on the canopy, without rigid bodies [N]
   Vec3 line_force;                // of lines and riser on the payload [N]
   double payload_drag = 0;        // [N]
   double mouth_area = 0;          // magnitude of the canopy's area vector [m2]
@@ -21,8 +24,9 @@ struct FreeFlightRow {
   Vec3 stream;                    // of the undisturbed air in the box [m/s]
   double step = 0, courant = 0;   // of the flow [s], [-]
   double residual_traction = 0;
-  double momentum_gap = 0;  // of the air in this step, magnitude [N]
-  double mass_defect = 0;   // FlowStep::mass_defect
+  double momentum_gap = 0;                 // of the air in this step, magnitude [N]
+  double mass_defect = 0;                  // FlowStep::mass_defect
+  std::vector<FlightBodyRow> bodies = {};  // no columns
 };
 
 template <class T, class Visit>

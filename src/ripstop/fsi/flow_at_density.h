@@ -22,10 +22,12 @@ class FlowAtDensity {
   void set_density_ratio(double ratio) { ratio_ = ratio; }
   double density() const { return density_ * ratio_; }  // present [kg/m3]
 
-  void place(const std::vector<Triangle>& surface, SheetMotion motion) {
+  /// The canopy, and rigid bodies that have moved.
+  void place(const std::vector<Triangle>& surface, SheetMotion motion, std::vector<Placement> rigid) {
     for (double& compliance : motion.yields) compliance *= ratio_;
     for (double& pressure : motion.pressure) pressure /= ratio_;
-    flow_->place(0, surface, motion);
+    rigid.push_back({0, surface, std::move(motion)});
+    flow_->place_all(rigid);
   }
   void stream(Vec3 velocity, Vec3 acceleration) { flow_->stream(velocity, acceleration); }
   double longest_step(double courant) { return flow_->longest_step(courant); }

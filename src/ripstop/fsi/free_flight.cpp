@@ -10,6 +10,7 @@
 
 #include "ripstop/core/quantity_error.h"
 #include "ripstop/flight/point_mass.h"
+#include "ripstop/fsi/lines_apart.h"
 #include "ripstop/fsi/opening_cloth.h"
 
 namespace ripstop::inline fsi {
@@ -108,6 +109,18 @@ ClothPtr flying_cloth(CanopyMesh& mesh, const FlightProblem& problem) {
   return make_cloth(mesh, options);
 }
 
+/// Cells of equal width.
+Extent fine_cells(const FlowGrid& grid) {
+  Extent fine;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Grading& g = grid.grading[axis];
+    const bool graded = g.before > 0 || g.after > 0;
+    fine.low[axis] = graded ? g.core_low : grid.edge(axis, 0);
+    fine.high[axis] = graded ? g.core_high : grid.edge(axis, grid.count(axis));
+  }
+  return fine;
+}
+
 /// Between the speed of the opening's end and that of the descent [m/s].
 double slowest(const FlightProblem& problem) {
   return problem.descent_speed > 0 ? problem.descent_speed : problem.air.flow.air.speed();
@@ -127,11 +140,17 @@ FreeFlight::FreeFlight(FlightProblem problem)
       payload_(problem_.mesh.fixed[0]),
       canopy_(nodes_of_patches(mesh_)),
       home_(centroid(canopy_, problem_.shape)),
+      fine_(fine_cells(problem_.air.flow.grid)),
       row_(problem_.air.flow.air.speed() / fastest(problem_) / least_rows_in(problem_.air.flow)),
       cloth_(flying_cloth(mesh_, problem_)),
       stepper_(AdaptiveStepper::Step::renewed, problem_.cloth.step_fraction, row_, team_),
       air_(std::make_unique<CoupledFlow>(problem_.air, mesh_, &team_)) {
   for (const double m : mesh_.mass) mass_ += m;
+  const std::vector<FlowBody>& bodies = problem_.air.flow.bodies;
+  if (bodies.size() > 1) {
+    if (!problem_.from) require_lines_apart(mesh_, problem_.shape, bodies);
+    bodies_ = CarriedBodies(bodies, pose(problem_.shape));
+  }
   const double of_one = mouth_area(mouths(problem_.shape)) / canopies();
   const double diameter = std::sqrt(of_one * 4 / std::numbers::pi);
   follow_ = follow_rate * fastest(problem_) / diameter;
@@ -217,6 +236,7 @@ Surroundings FreeFlight::surroundings(const FreeFlightState& state, double lengt
              (state.box_velocity + length * accelerates);
   s.gained = (s.stream - state.stream) / length;
   s.on_mass = gravity_ - accelerates;
+  s.rigid = place_bodies(state, length);
   const double fallen =
       problem_.settings.height_m.value_or(0) - axes_.over_ground(state.box + problem_.shape[payload_]).z;
   if (problem_.density_ratio) s.density_ratio = problem_.density_ratio(fallen);
@@ -231,14 +251,7 @@ Surroundings FreeFlight::surroundings(const FreeFlightState& state, double lengt
 }
 
 void FreeFlight::check_cells(const std::vector<Vec3>& x, double time) const {
-  const FlowGrid& grid = air_->grid();
-  const auto outside = [&](int axis, double at) {
-    const Grading& g = grid.grading[axis];
-    const bool graded = g.before > 0 || g.after > 0;
-    const double low = graded ? g.core_low : grid.edge(axis, 0),
-                 high = graded ? g.core_high : grid.edge(axis, grid.count(axis));
-    return at < low || at > high;
-  };
+  const auto outside = [&](int axis, double at) { return at < fine_.low[axis] || at > fine_.high[axis]; };
   for (const int n : canopy_) {
     const Vec3 p = x[n];
     if (!outside(0, p.x) && !outside(1, p.y) && !outside(2, p.z)) continue;
@@ -252,6 +265,54 @@ void FreeFlight::check_cells(const std::vector<Vec3>& x, double time) const {
             canopies() > 1 ? "; increase the widest spread angle" : ""),
         {"region of fine cells", "the widest spread angle"});
   }
+}
+
+CarriedBodies::Pose FreeFlight::pose(const std::vector<Vec3>& x) const {
+  const Vec3 line = centroid(mesh_.rigging.skirt_nodes, x) - x[payload_];
+  return {x[payload_], line / norm(line)};
+}
+
+std::vector<Placement> FreeFlight::place_bodies(const FreeFlightState& state, double length) const {
+  if (bodies_.empty()) return {};
+  const std::vector<Vec3> x = positions(state.coupled.cloth, *cloth_),
+                          v = velocities(state.coupled.cloth, *cloth_);
+  std::vector<Vec3> next = x;
+  for (std::size_t n = 0; n < x.size(); ++n) next[n] += length * v[n];
+  std::vector<Placement> placed = bodies_.placed(pose(x), pose(next), length);
+  const FlowGrid& grid = air_->grid();
+  for (const Placement& body : placed) {
+    const Extent e = extent_of(body.surface);
+    for (int axis = 0; axis < 3; ++axis) {
+      const double low = grid.edge(axis, 0), high = grid.edge(axis, grid.count(axis));
+      if (e.low[axis] >= low && e.high[axis] <= high) continue;
+      throw QuantityError(
+          ExitCode::not_converged,
+          fmt::format(
+              "t = {:.4g} s: the body \"{}\" has left the flow domain, which follows the canopy: it "
+              "extends from {} = {:.3g} to {:.3g} m, the domain from {:.3g} to {:.3g} m; increase the "
+              "size of the domain",
+              began() + state.coupled.cloth.time, problem_.air.flow.bodies[body.body].name, "xyz"[axis],
+              e.low[axis], e.high[axis], low, high),
+          {"the size of the domain"});
+    }
+  }
+  return placed;
+}
+
+std::vector<Placement> FreeFlight::bodies(const FreeFlightState& state) const {
+  const CarriedBodies::Pose now = pose(positions(state.coupled.cloth, *cloth_));
+  return bodies_.placed(now, now, 1);
+}
+
+/// From places and vectors in the box at `box`.
+std::vector<FlightBodyRow> FreeFlight::over_ground(std::vector<FlightBodyRow> rows, Vec3 box,
+                                                   double time) const {
+  for (FlightBodyRow& row : rows) {
+    row.time = time;
+    row.force = axes_.over_ground(row.force), row.moment = axes_.over_ground(row.moment);
+    row.aft = axes_.over_ground(box + row.aft);
+  }
+  return rows;
 }
 
 FreeFlightRow FreeFlight::row_of(const FreeFlightState& state, const std::vector<Vec3>& x,
@@ -279,6 +340,8 @@ FreeFlightRow FreeFlight::advance(FreeFlightState& state) {
   const int rows = std::max(1, static_cast<int>(longest / row_));
   const double length = rows * row_;
   const std::vector<Vec3> v_before = velocities(coupled.cloth, *cloth_);
+  const CarriedBodies::Pose pose_before = pose(positions(coupled.cloth, *cloth_));
+  const Vec3 box_before = state.box;
   const Surroundings around = surroundings(state, length);
 
   const CoupledStep taken =
@@ -290,17 +353,24 @@ FreeFlightRow FreeFlight::advance(FreeFlightState& state) {
   state.box += length * state.box_velocity + (0.5 * length * length) * accelerates;
   state.box_velocity += length * accelerates;
   state.stream = around.stream;
-  state.impulse += length * (taken.flow.force + around.force + mass_ * gravity_);
+  const Vec3 on_canopy = taken.flow.force - force_on_others(taken.flow.bodies);
+  state.impulse += length * (on_canopy + around.force + mass_ * gravity_);
 
   const std::vector<Vec3> x = positions(coupled.cloth, *cloth_), v = velocities(coupled.cloth, *cloth_);
   check_cells(x, began() + coupled.cloth.time);
   FreeFlightRow row = row_of(state, x, v);
-  row.air_force = taken.flow.force;
+  row.air_force = on_canopy;
   row.payload_drag = norm(around.force);
   // The force of lines and riser is the remaining change of the payload's momentum, averaged over the step.
   const double m = mesh_.mass[payload_];
   row.line_force = (m / length) * (v[payload_] - v_before[payload_]) - m * around.on_mass - around.force;
   row.step = length, row.courant = taken.flow.courant;
+  if (!bodies_.empty()) {
+    const Vec3 gains = (v[payload_] - v_before[payload_]) / length;
+    const BodiesInStep step{
+        taken.flow.bodies, around.stream - v[payload_], air_->density(), around.gained, gains, fine_};
+    row.bodies = over_ground(bodies_.rows(pose_before, around.rigid, step), box_before, row.time);
+  }
   row.residual_traction = taken.residual_traction;
   row.momentum_gap = norm(taken.flow.momentum_gap), row.mass_defect = taken.flow.mass_defect;
   // A canopy that has just opened may still grow.

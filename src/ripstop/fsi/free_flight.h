@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "ripstop/flow/extent.h"
+#include "ripstop/fsi/carried_bodies.h"
 #include "ripstop/fsi/cluster_motion.h"
 #include "ripstop/fsi/coupled_step.h"
 #include "ripstop/fsi/flight_record.h"
@@ -25,7 +27,8 @@ struct FlightProblem {
   CanopyMesh mesh;                    // as cut; its fixed node becomes the payload
   std::vector<Vec3> shape;            // at the start, its axis along z in the box [m]
   std::vector<double> pressure = {};  // on its cells [Pa]; empty: none
-  AirProblem air;                     // air.flow.air.velocity: along z, the rate of descent at the start
+  /// air.flow.air.velocity: along z, the rate of descent at the start. Rigid bodies are where they are at that shape.
+  AirProblem air;
   FlightSettings settings;
   InflationSettings cloth;       // damping, contact and step of the cloth
   double payload_mass = 0;       // [kg]
@@ -52,11 +55,13 @@ struct BoxAxes {
 
 class FreeFlight {
  public:
-  /// Throws Error(usage) for a payload without mass, a mesh without exactly one fixed node, and as CoupledFlow.
+  /// Throws Error(usage) for a payload without mass, a mesh without exactly one fixed node, lines that pass through rigid
+  /// bodies, and as CoupledFlow.
   explicit FreeFlight(FlightProblem problem);
 
   FreeFlightState start();
-  /// One step of the flow. Throws Error(diverged), and Error(not_converged) for a canopy that leaves its fine cells.
+  /// One step of the flow. Throws Error(diverged), Error(not_converged) for a canopy that leaves its fine cells or a rigid
+  /// body that leaves the box, and Error(usage) where the canopy touches a rigid body.
   FreeFlightRow advance(FreeFlightState& state);
 
   /// Energies in the box; the residual is relative to the potential energy lost so far.
@@ -68,6 +73,9 @@ class FreeFlight {
   std::string failure(const FreeFlightState& state, const FreeFlightRow& row) const;
   /// Every canopy of a cluster at the present state.
   std::vector<CanopyRow> canopy_rows(const FreeFlightState& state) const;
+
+  /// The rigid bodies at the present state.
+  std::vector<Placement> bodies(const FreeFlightState& state) const;
 
   double began() const { return problem_.from ? problem_.from->time : 0; }  // since deployment [s]
   double mass() const { return mass_; }                                     // of parachute and payload [kg]
@@ -89,6 +97,9 @@ class FreeFlight {
     return mouth_areas(air_->cells(), x, canopies());
   }
   void check_cells(const std::vector<Vec3>& x, double time) const;
+  CarriedBodies::Pose pose(const std::vector<Vec3>& x) const;
+  std::vector<Placement> place_bodies(const FreeFlightState& state, double length) const;
+  std::vector<FlightBodyRow> over_ground(std::vector<FlightBodyRow> rows, Vec3 box, double time) const;
   FreeFlightRow row_of(const FreeFlightState& state, const std::vector<Vec3>& x,
                        const std::vector<Vec3>& v) const;
 
@@ -101,6 +112,8 @@ class FreeFlight {
   double mass_ = 0;
   std::vector<int> canopy_;  // nodes of patches
   Vec3 home_;                // of the canopy's centroid in the box [m]
+  Extent fine_;              // cells of the flow
+  CarriedBodies bodies_;
   double follow_ = 0;        // rate at which the box follows the canopy [1/s]
   double longest_step_ = 0;  // of the flow [s]
   double row_ = 0;           // of the cloth's history [s]

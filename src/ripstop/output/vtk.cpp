@@ -155,6 +155,16 @@ void VtkCells::add(std::span<const int> points) {
   offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
 }
 
+VtkSurface triangle_surface(const std::vector<Triangle>& triangles) {
+  VtkSurface surface;
+  for (const Triangle& t : triangles) {
+    const int first = static_cast<int>(surface.points.size());
+    surface.points.insert(surface.points.end(), {t.a, t.b, t.c});
+    surface.polygons.add(std::array{first, first + 1, first + 2});
+  }
+  return surface;
+}
+
 void write_vtp(const std::filesystem::path& path, const VtkSurface& surface) {
   Document document{path, {}, {}};
   check_cells(document, surface.lines, surface.points.size());

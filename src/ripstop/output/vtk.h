@@ -45,6 +45,8 @@ struct VtkSurface {
   VtkCells lines, polygons;
   std::vector<VtkArray> point_arrays, cell_arrays;
 };
+/// Each triangle with its own points.
+VtkSurface triangle_surface(const std::vector<Triangle>& triangles);
 /// .vtp. Throws Error(bad_data) when an array's length or a cell's point does not fit, Error(io).
 void write_vtp(const std::filesystem::path& path, const VtkSurface& surface);
 

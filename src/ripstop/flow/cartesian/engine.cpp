@@ -92,7 +92,7 @@ QuantityError divergence(const Solver& solver, const std::string& when, const st
 constexpr const char* state_file = "cartesian.flow";
 
 struct Header {
-  char magic[8] = {'r', 'i', 'p', 'f', 'l', 'o', 'w', 'A'};
+  char magic[8] = {'r', 'i', 'p', 'f', 'l', 'o', 'w', 'B'};
   int frame = 0;  // MarchFrame::number(), or that of a quarter
   FlowGrid grid;  // in that frame, as all else
   Freestream air;
@@ -112,8 +112,13 @@ void each_number(AnyHeader& h, Visit&& visit) {
   visit(h.jet.outside), visit(h.jet.shear_layer);
 }
 template <class AnyMotion, class Visit>
-void each_array(AnyMotion& m, Visit&& visit) {
+void each_part(AnyMotion& m, Visit&& visit) {
   visit(m.velocity), visit(m.yields), visit(m.pressure);
+  int rigid = m.rigid.has_value();
+  visit(rigid);
+  if constexpr (!std::is_const_v<AnyMotion>)
+    if (rigid != 0) m.rigid.emplace();
+  if (m.rigid) visit(m.rigid->velocity), visit(m.rigid->spin), visit(m.rigid->about);
 }
 static_assert(sizeof(Grading) == 4 * sizeof(double) + 2 * sizeof(int) &&
               sizeof(Freestream) == 8 * sizeof(double));
@@ -175,9 +180,14 @@ class CartesianFlow final : public Flow {
         solver_(problem_, problem_.grid, porous(), settings, team) {}
 
   void place(std::size_t which, const std::vector<Triangle>& surface, const SheetMotion& motion) override {
-    FlowBody& body = problem_.bodies.at(which);
-    body.surface = frame_.into(surface), body.motion = frame_.into(motion);
-    if (!body.is_sheet()) body.porous().cells = cut_cells(problem_.grid, body.surface);
+    place_all({{which, surface, motion}});
+  }
+  void place_all(const std::vector<Placement>& bodies) override {
+    for (const Placement& placed : bodies) {
+      FlowBody& body = problem_.bodies.at(placed.body);
+      body.surface = frame_.into(placed.surface), body.motion = frame_.into(placed.motion);
+      if (!body.is_sheet()) body.porous().cells = cut_cells(problem_.grid, body.surface);
+    }
     solver_.place(porous(), problem_.bodies);
   }
 
@@ -352,7 +362,7 @@ void CartesianFlow::save(const std::filesystem::path& folder) const {
   if (problem_.jet) header.jets = 1, header.jet = *problem_.jet;
   each_number(header, out);
   for (const FlowBody& body : problem_.bodies) {
-    out(body.surface), each_array(body.motion, out);
+    out(body.surface), each_part(body.motion, out);
     if (!body.is_sheet()) out(body.porous().cells);
   }
   each_carried(solver_.state(), out);
@@ -371,7 +381,7 @@ Header header_of(Reader& in) {
 /// Places the saved bodies in `problem`, and reads the state of its solver, whose arrays fit then.
 State state_of(Reader& in, FlowProblem& problem, Solver& solver) {
   for (FlowBody& body : problem.bodies) {
-    in(body.surface), each_array(body.motion, in);
+    in(body.surface), each_part(body.motion, in);
     if (!body.is_sheet()) in(body.porous().cells);
   }
   solver.place({problem.grid, problem.bodies, problem.air.viscosity}, problem.bodies);

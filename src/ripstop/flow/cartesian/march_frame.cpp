@@ -54,6 +54,8 @@ std::vector<Triangle> MarchFrame::into(std::vector<Triangle> surface) const {
 
 SheetMotion MarchFrame::into(SheetMotion motion) const {
   for (Vec3& v : motion.velocity) v = into(v);
+  if (motion.rigid)
+    for (Vec3* v : {&motion.rigid->velocity, &motion.rigid->spin, &motion.rigid->about}) *v = into(*v);
   return motion;
 }
 

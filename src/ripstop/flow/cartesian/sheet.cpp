@@ -33,6 +33,14 @@ std::ptrdiff_t next_along(int axis, const Layout& layout) {
   return axis == 0 ? 1 : axis == 1 ? layout.stride_y : layout.stride_z;
 }
 
+Vec3 centre_of(const SheetFace& face, const std::array<const Axis*, 3>& axes) {
+  const std::array<int, 3> cell{face.i, face.j, face.k};
+  std::array<double, 3> at{};
+  for (std::size_t a = 0; a < 3; ++a)
+    at[a] = axes[a]->edge[cell[a]] + (static_cast<int>(a) == face.axis ? 0 : 0.5 * axes[a]->width[cell[a]]);
+  return {at[0], at[1], at[2]};
+}
+
 /// The cells on either side of a face.
 std::pair<std::ptrdiff_t, std::ptrdiff_t> cells(const SheetFace& g, const Layout& layout) {
   const std::ptrdiff_t high = layout.at(g.i, g.j, g.k);
@@ -139,16 +147,18 @@ SheetRows::Face SheetRows::face_of(const SheetFace& geometry, int body, const Fl
   face.body = body;
   face.law = sheet.drop();
   const SheetFace& g = face.geometry;
-  if (!motion.velocity.empty()) {
+  const Axis& axis = *axes[static_cast<std::size_t>(g.axis)];
+  const int c = g.axis == 0 ? g.i : g.axis == 1 ? g.j : g.k;
+  if (motion.rigid) {
+    face.moves = true, face.velocity = motion.rigid->at(centre_of(g, axes));
+  } else if (!motion.velocity.empty()) {
     face.geometry.normal = geometry.across;
     face.moves = true, face.velocity = motion.velocity[g.triangle];
-    const Axis& axis = *axes[static_cast<std::size_t>(g.axis)];
-    const int c = g.axis == 0 ? g.i : g.axis == 1 ? g.j : g.k;
     const double off = along(g.axis, g.point) - axis.edge[c];
     face.beyond = off * axis.inverse_width[off > 0 ? c : c - 1];
     if (c < 3 || c + 3 > axis.n) face.beyond = 0;
-    face.apart = 1 / axis.inverse_distance[c];
   }
+  if (face.moves) face.apart = 1 / axis.inverse_distance[c];
   if (!motion.yields.empty()) face.yields = motion.yields[g.triangle];
   if (!motion.pressure.empty()) face.known = (g.against ? -1 : 1) * motion.pressure[g.triangle];
   face.area = (g.axis == 0 ? 1 : x->width[g.i]) * (g.axis == 1 ? 1 : y->width[g.j]) *

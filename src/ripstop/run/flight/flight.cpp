@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "ripstop/case/assemble.h"
-#include "ripstop/case/bodies.h"
 #include "ripstop/case/opening.h"
 #include "ripstop/case/payload.h"
 #include "ripstop/core/error.h"
@@ -196,6 +195,9 @@ void take_quality(FlightResult& r, const Settings& resolved) {
   judgement.add(mesh_warnings(resolved));
   judgement.add(air_warnings(resolved));
   judgement.add(strain_warnings(resolved, r.stress.strain));
+  judgement.add(body_warnings(resolved, flow_grid(resolved.flow()), true,
+                              "increase flight.cells_across, or flow.cells"));
+  if (r.bodies) judgement.add(flight_body_warnings(resolved, *r.bodies));
   r.warnings = std::move(judgement.warnings);
   if (failed(r.ended_by)) {
     r.warnings.push_back(fmt::format("{}: the result {}; no mean is given", r.ended_by, refused_text));
@@ -247,6 +249,10 @@ FlightResult result_of(const Settings& resolved, const FreeFlight& flight, const
   r.known_coefficient = experience(resolved.parachute()).drag_coefficient.if_known();
   const FlightSummary summary = summarise_flight(history.rows);
   if (!failed(ended_by)) take_means(r, summary);
+  if (std::vector<FlowBody> rigid = flight.problem().air.flow.bodies; rigid.size() > 1 && !failed(ended_by)) {
+    rigid.erase(rigid.begin());
+    r.bodies = flight_bodies(resolved, rigid, history.bodies, flight.began(), summary.start_up);
+  }
   r.handover = handover_of(resolved, flight, start, state, history);
   r.largest_load = std::max(summary.largest_load, start.opening ? start.opening->peak_load : 0);
   r.load_factor = r.largest_load / (r.payload_mass * standard_gravity);
@@ -318,18 +324,14 @@ InflationObserver& FlightObserver::opening() {
 }
 
 Settings flight_settings(const Case& given, const fs::path& from) {
-  const auto alone = [](Settings flight) {
-    require_no_bodies(flight, "a flight");
-    return flight;
-  };
-  if (from.empty()) return alone(resolve(flight_case(given)));
+  if (from.empty()) return resolve(flight_case(given));
   const Settings opening = settings_of_run(from);
   warnings_of_used({from});
   Case folded = given;
   if (folded.inflation.folds == 0 && !folded.inflation.initial_radius_m)
     folded.inflation.folds = opening.inflation().folds;  // that of a closed mouth
   require_same_parachute(opening, from.string(), resolve(foldable_case(folded)));
-  return alone(resolve(continued_case(given, opening)));
+  return resolve(continued_case(given, opening));
 }
 
 FlightSolution run_flight(const Settings& resolved, int threads, FlightObserver& observer,
@@ -364,6 +366,8 @@ FlightSolution run_flight(const Settings& resolved, int threads, FlightObserver&
   std::string ended_by = history.rows.empty() ? "" : end_of(flight, state, history);
   while (ended_by.empty()) {
     history.rows.push_back(flight.advance(state));
+    const std::vector<FlightBodyRow>& bodies = history.rows.back().bodies;
+    history.bodies.insert(history.bodies.end(), bodies.begin(), bodies.end());
     if (flight.canopies() > 1)
       for (const CanopyRow& row : flight.canopy_rows(state)) history.canopies.push_back(row);
     ended_by = end_of(flight, state, history);

@@ -11,6 +11,7 @@
 #include "ripstop/core/members.h"
 #include "ripstop/fsi/cluster_motion.h"
 #include "ripstop/fsi/flight_summary.h"
+#include "ripstop/run/flight/flight_bodies.h"
 #include "ripstop/run/margins.h"
 #include "ripstop/run/opening/inflation.h"
 #include "ripstop/run/run_folder.h"
@@ -89,12 +90,14 @@ struct FlightResult {
       axial_coefficient;             // C_D0 on the axis (tunnel); absent, as the speed, after an inflation
   std::optional<Handover> handover;  // from an inflation
   std::optional<FlightCluster> cluster;
-  double reference_area = 0;                          // S0, of all canopies [m2]
-  double density = 0;                                 // at the start [kg/m3]
-  std::optional<std::string> air_source;              // absent in results of earlier versions
-  double largest_load = 0;                            // of the lines on the payload [N]
-  double load_factor = 0;                             // that over the payload's weight
-  double distance = 0, height_lost = 0;               // of the payload over the ground [m]
+  std::optional<std::vector<FlightBody>>
+      bodies;                             // of a case with rigid bodies; absent as the means of the flight
+  double reference_area = 0;              // S0, of all canopies [m2]
+  double density = 0;                     // at the start [kg/m3]
+  std::optional<std::string> air_source;  // absent in results of earlier versions
+  double largest_load = 0;                // of the lines on the payload [N]
+  double load_factor = 0;                 // that over the payload's weight
+  double distance = 0, height_lost = 0;   // of the payload over the ground [m]
   double energy_residual = 0, momentum_residual = 0;  // of the whole flight
   double air_momentum_residual = 0;  // largest momentum gap of a step of the air over the weight
   double mass_defect = 0;            // largest of a step of the air
@@ -155,6 +158,7 @@ void each_member(T& r, Visit&& visit) {
   visit("warnings", r.warnings);
   visit("handover", r.handover);
   visit("cluster", r.cluster);
+  visit("bodies", r.bodies);
   visit("usable", r.usable);
 }
 std::string to_json(const FlightResult& result);
@@ -189,7 +193,8 @@ inline long long shapes_until(double time, const FlightSettings& settings) {
 /// All of a flight so far.
 struct FlightHistory {
   std::vector<FreeFlightRow> rows;
-  std::vector<CanopyRow> canopies;  // of a cluster: at every step a row for each canopy
+  std::vector<CanopyRow> canopies;    // of a cluster: at every step a row for each canopy
+  std::vector<FlightBodyRow> bodies;  // at every step a row for each rigid body
 };
 
 /// Observer of a flight; functions that are not overridden do nothing.

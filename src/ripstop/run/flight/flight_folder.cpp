@@ -24,6 +24,10 @@ namespace fs = std::filesystem;
 constexpr int flight_format = 5;
 constexpr const char* what_is_saved = "a checkpoint of a flight";
 
+std::string body_series(const std::string& name) {
+  return "body-" + name;
+}
+
 /// Writes every file of the flight before it calls the next observer.
 class FlightFolder : public FlightObserver {
  public:
@@ -76,6 +80,8 @@ void FlightFolder::begin(FreeFlight& flight, FreeFlightState& state, FlightHisto
   history.rows = files_.open<FreeFlightRow>("path.csv", steps);
   if (const int canopies = flight.canopies(); canopies > 1)
     history.canopies = files_.open<CanopyRow>("canopies.csv", steps * static_cast<std::size_t>(canopies));
+  if (const std::size_t bodies = flight.problem().air.flow.bodies.size() - 1; bodies > 0)
+    history.bodies = files_.open<FlightBodyRow>("bodies.csv", steps * bodies);
   files_.check();
   if (!saved) write_shape(flight, state, 0);
   next_.begin(flight, state, history);
@@ -93,12 +99,16 @@ void FlightFolder::advanced(FreeFlight& flight, const FreeFlightState& state, co
 void FlightFolder::save(FreeFlight& flight, const FreeFlightState& state, const FlightHistory& history) {
   files_.add("path.csv", history.rows);
   if (!history.canopies.empty()) files_.add("canopies.csv", history.canopies);
+  if (!history.bodies.empty()) files_.add("bodies.csv", history.bodies);
   files_.save(to_cbor(state, flight_format), &flight.air());
 }
 
 // In the box, which follows the canopy.
 void FlightFolder::write_shape(FreeFlight& flight, const FreeFlightState& state, long long index) {
   write_frame(folder_, flight.mesh(), flight.cloth(), state.coupled.cloth, state.coupled.air.pressure, index);
+  const std::vector<FlowBody>& bodies = flight.problem().air.flow.bodies;
+  for (const Placement& placed : flight.bodies(state))
+    folder_.write(frame_file(body_series(bodies[placed.body].name), index), triangle_surface(placed.surface));
   if (index > 0) write_air_frame(folder_, flight.air(), index);
 }
 
@@ -109,6 +119,9 @@ void FlightFolder::write_series(const FreeFlight& flight, double end) {
     return flight.began() + static_cast<double>(frame) / s.shapes_per_s;
   };
   for (const char* what : {"canopy", "lines"}) write_frames(folder_, what, 0, last, time);
+  const std::vector<FlowBody>& bodies = flight.problem().air.flow.bodies;
+  for (std::size_t n = 1; n < bodies.size(); ++n)
+    write_frames(folder_, body_series(bodies[n].name), 0, last, time);
   write_frames(folder_, "air", 1, last, time, air_ending(flight.problem().air.flow.grid));
 }
 

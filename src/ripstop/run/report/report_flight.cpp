@@ -10,6 +10,7 @@
 
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/file.h"
+#include "ripstop/fsi/carried_bodies.h"
 #include "ripstop/fsi/cluster_motion.h"
 #include "ripstop/fsi/flight_record.h"
 #include "ripstop/fsi/opening_end.h"
@@ -149,6 +150,20 @@ void add_canopies(std::vector<ReportPlot>& plots, const fs::path& folder) {
                                      [](const CanopyRow& r) { return r.riser_load; }));
 }
 
+/// Of rigid bodies, in the order of their names.
+void add_bodies(std::vector<ReportPlot>& plots, const Settings& resolved, const fs::path& folder) {
+  if (!fs::exists(folder / "bodies.csv")) return;
+  ReportPlot plot = over_time("bodies", "Drag of the rigid bodies", {"drag", "N"});
+  for (const auto& [name, keys] : resolved.written().bodies)
+    plot.series.push_back({name, {}, {}, true, false});
+  for (const FlightBodyRow& row : read_rows<FlightBodyRow>(folder / "bodies.csv")) {
+    ReportSeries& series = plot.series.at(static_cast<std::size_t>(row.body) - 1);
+    series.x.push_back(row.time), series.y.push_back(row.drag);
+  }
+  for (ReportSeries& series : plot.series) series = thinned(std::move(series));
+  plots.push_back(std::move(plot));
+}
+
 /// A number of the group "handover" of result.json.
 std::optional<double> handover(const fs::path& folder, const char* key) {
   const auto json = nlohmann::json::parse(read_file(folder / "result.json"), nullptr, false);
@@ -178,6 +193,7 @@ void add_flight(ReportRun& run, const Settings& resolved, const fs::path& folder
   const Before before = inflation_in(folder);
   run.plots = plots_from(before, rows);
   add_canopies(run.plots, folder);
+  add_bodies(run.plots, resolved, folder);
   const double began = handover(folder, "time_s").value_or(0),
                below = handover(folder, "path_angle_deg").value_or(90) * std::numbers::pi / 180;
   std::vector<ShapeFiles> files = before.shapes;
