@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "face_pressures.h"
 #include "ripstop/flow/bodies.h"
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/extent.h"
@@ -43,6 +44,7 @@ FlowProblem problem_with(Vec3 low, Vec3 high, int across, double beside, double 
 struct Drag {
   std::vector<double> coefficient, error;
   FlowField mean;
+  FacePressures first;  // of the first body
 };
 
 Drag drag_of(FlowProblem problem, double length, const std::vector<double>& areas, int across) {
@@ -67,7 +69,12 @@ Drag drag_of(FlowProblem problem, double length, const std::vector<double>& area
     drag.coefficient.push_back(force.mean / (q * areas[n]));
     drag.error.push_back(force.standard_error / (q * areas[n]));
   }
+  drag.first = face_pressures(drag.mean, 0, q);
   return drag;
+}
+
+std::string text(const FacePressures& pressures) {
+  return fmt::format("{:.2f}, {:.2f}", pressures.front, pressures.back);
 }
 
 /// Mean of (u / U)^2 over the disk at `centre` in a flow without it: the ratio of drag by the dynamic pressure of the
@@ -104,7 +111,7 @@ void behind_cylinder(int across, const std::vector<double>& distances) {
   problem.bodies = {cylinder(last)};
   const Drag body = drag_of(problem, disk_diameter, {circle}, across);
   print_row({"alone", fmt::format("{:.3f} ± {:.3f}", alone.coefficient[0], alone.error[0]), "1", "1",
-             fmt::format("{:.3f} ± {:.3f}", body.coefficient[0], body.error[0])});
+             text(alone.first), fmt::format("{:.3f} ± {:.3f}", body.coefficient[0], body.error[0])});
   for (const double distance : distances) {
     problem.bodies = {sheet_body(disk(disk_diameter, {}), impermeable, "disk"), cylinder(distance)};
     const Drag both = drag_of(problem, disk_diameter, {area, circle}, across);
@@ -115,7 +122,7 @@ void behind_cylinder(int across, const std::vector<double>& distances) {
     print_row({fmt::format("{:g}", distance),
                fmt::format("{:.3f} ± {:.3f}", both.coefficient[0], both.error[0]),
                fmt::format("{:.3f} ± {:.3f}", ratio, error),
-               fmt::format("{:.3f}", wake_pressure(body.mean, place, disk_diameter)),
+               fmt::format("{:.3f}", wake_pressure(body.mean, place, disk_diameter)), text(both.first),
                fmt::format("{:.3f} ± {:.3f}", both.coefficient[1], both.error[1])});
   }
 }
@@ -164,7 +171,7 @@ int main(int argc, char** argv) {
                     across),
         argc, argv,
         {"distance / diameter", "C_D of the disk", "drag ratio", "mean of (u/U)² in the wake alone",
-         "C_D of the cylinder"});
+         "Cp upstream, downstream side of the disk", "C_D of the cylinder"});
     behind_cylinder(across, distances);
   } else {
     print_table_head(fmt::format("Two disks side by side, {} cells across each, unsteady", across), argc,

@@ -22,6 +22,7 @@
 #include <utility>
 #include <vector>
 
+#include "face_pressures.h"
 #include "far_box.h"
 #include "ripstop/core/file.h"
 #include "ripstop/flow/cartesian/cartesian.h"
@@ -46,23 +47,6 @@ struct Result {
          change = 0;           // the latter: standard deviation over the last 100 iterations, relative
   double front = 0, back = 0;  // mean pressure coefficient, weighted with the area across the flow
 };
-
-// Means over the faces across the stream that the body parts, of the cells before and behind them.
-void read_pressures(const FlowField& field, double dynamic_pressure, Result& result) {
-  const FlowGrid& grid = field.grid;
-  double area = 0;
-  for (const SheetLoad& load : field.sheet_loads) {
-    if (load.force.z == 0) continue;
-    int k = grid.cell_at(2, load.point.z);
-    if (grid.centre(2, k) > load.point.z) --k;
-    const int i = grid.cell_at(0, load.point.x), j = grid.cell_at(1, load.point.y);
-    const double share = std::abs(load.force.z / load.drop);
-    area += share;
-    result.front += share * field.pressure[grid.index(i, j, k)];
-    result.back += share * field.pressure[grid.index(i, j, k + 1)];
-  }
-  result.front /= area * dynamic_pressure, result.back /= area * dynamic_pressure;
-}
 
 FlowProblem problem_of(const Body& body, const FlowGrid& grid, double turbulence, Sides sides) {
   FlowProblem problem;
@@ -92,7 +76,8 @@ Result result_of(const Body& body, const FlowProblem& problem, const FlowField& 
   Result result;
   result.coefficient = field.porous_force.z / (dynamic_pressure(problem) * body.area);
   if (field.average.iterations > 0) result.change = field.average.drag_deviation / field.porous_force.z;
-  read_pressures(field, dynamic_pressure(problem), result);
+  const FacePressures sides = face_pressures(field, 0, dynamic_pressure(problem));
+  result.front = sides.front, result.back = sides.back;
   return result;
 }
 

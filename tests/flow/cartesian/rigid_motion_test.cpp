@@ -35,6 +35,12 @@ std::vector<Triangle> shifted(std::vector<Triangle> surface, Vec3 by) {
   return surface;
 }
 
+SheetMotion rigid(const RigidMotion& motion) {
+  SheetMotion sheet;
+  sheet.rigid = motion;
+  return sheet;
+}
+
 // Cells pass from air to body and back; each has the velocity of the stream.
 TEST(RigidMotion, ABodyThatDriftsWithTheStreamLeavesItUniform) {
   const Vec3 stream{3, -2, 20};
@@ -43,7 +49,7 @@ TEST(RigidMotion, ABodyThatDriftsWithTheStreamLeavesItUniform) {
   const auto flow = maker->start(box(stream, start));
   const double length = 1.5e-3;
   for (int n = 0; n < 20; ++n) {
-    flow->place(0, shifted(start, n * length * stream), {.rigid = RigidMotion{stream, {}, {}}});
+    flow->place(0, shifted(start, n * length * stream), rigid({stream, {}, {}}));
     EXPECT_NEAR(norm(flow->step(length).force), 0, 1e-3) << "of 1.2 x 200 x 0.8 N";
   }
   double most = 0;
@@ -62,7 +68,7 @@ double drag(double moves) {
   double sum = 0;
   for (int n = 0; n < steps; ++n) {
     const Vec3 velocity{0, 0, moves};
-    flow->place(0, shifted(start, n * length * velocity), {.rigid = RigidMotion{velocity, {}, {}}});
+    flow->place(0, shifted(start, n * length * velocity), rigid({velocity, {}, {}}));
     const double force = flow->step(length).force.z;
     if (n >= steps / 2) sum += force / (steps - steps / 2);
   }
@@ -77,34 +83,20 @@ TEST(RigidMotion, TheDragDependsOnTheRelativeSpeedOnly) {
   EXPECT_NEAR(drag(5) / at_rest, 1, 0.06);
 }
 
-// Each face has the velocity of the body at its centre: no air is compressed inside.
-TEST(RigidMotion, ABodyThatTurnsHasTheVelocityOfARigidBodyInside) {
+// Each face has the velocity of the body at its centre, so that the cells inside neither gain nor lose air. With one
+// velocity for all faces of a triangle the defect is above 0.01.
+TEST(RigidMotion, ABodyThatTurnsNeitherTakesNorGivesAir) {
   const Vec3 about{0.03, 0.02, 0}, spin{4, 1, 3};
   const std::vector<Triangle> surface = sphere(1.6, about);  // its place does not change
   const auto maker = engine();
   const auto flow = maker->start(box({0, 0, 5}, surface));
   FlowStep last;
   for (int n = 0; n < 30; ++n) {
-    flow->place(0, surface, {.rigid = RigidMotion{{}, spin, about}});
+    flow->place(0, surface, rigid({{}, spin, about}));
     last = flow->step(4e-3);
     EXPECT_NEAR(norm(last.momentum_gap), 0, 1e-8 * 30) << n;
   }
-  EXPECT_LT(last.mass_defect, 2e-3);
-  const FlowField field = flow->field();
-  double most = 0;
-  int inside = 0;
-  for (int k = 0; k < field.grid.nz; ++k) {
-    for (int j = 0; j < field.grid.ny; ++j) {
-      for (int i = 0; i < field.grid.nx; ++i) {
-        const Vec3 from = field.grid.centre(i, j, k) - about;
-        if (norm(from) > 0.5) continue;
-        most = std::max(most, norm(field.velocity[field.grid.index(i, j, k)] - cross(spin, from)));
-        ++inside;
-      }
-    }
-  }
-  EXPECT_GT(inside, 50);
-  EXPECT_LT(most, 0.05 * norm(spin) * 0.5);
+  EXPECT_LT(last.mass_defect, 3e-4);
 }
 
 // The stream is along x: the axes of the march are others than those of the problem.
@@ -114,7 +106,7 @@ TEST(RigidMotion, IsTheSameInTheAxesOfTheMarch) {
   const auto maker = engine();
   const auto flow = maker->start(box(stream, start));
   for (int n = 0; n < 10; ++n) {
-    flow->place(0, shifted(start, n * 1e-3 * stream), {.rigid = RigidMotion{stream, {}, {}}});
+    flow->place(0, shifted(start, n * 1e-3 * stream), rigid({stream, {}, {}}));
     EXPECT_NEAR(norm(flow->step(1e-3).force), 0, 1e-3);
   }
 }
