@@ -60,7 +60,7 @@ void take_cluster_cells(Case& flight, double over_diameter) {
   flow.cells = {across, across, cells_along(core.z, before, length - before - core.z, h)};
 }
 
-// The core of one canopy, longer upstream by the bodies as they hang on the axis. The box contains them at the widest
+// The core of one canopy, longer upstream by the bodies without a swing. The box contains them at the widest
 // swing about the canopy.
 void take_body_cells(Case& flight, double over_diameter) {
   const double d = inflated_diameter(flight.parachute),
