@@ -200,6 +200,15 @@ Flight.energy_residual: residual of the energy balance, over the potential energ
 Flight.momentum_residual: residual of the momentum balance, over the impulse of the weight
 Flight.handover: state before and after the end of the inflation; None: without one
 Flight.cluster: motion of the canopies of a cluster; None: a single canopy
+Flight.bodies: mean loads on the rigid bodies after the start-up; None: without any, or a flight that failed
+FlightBody.name: name of the body in the case
+FlightBody.drag_n: mean force along the air relative to the payload
+FlightBody.drag_area_m2: mean of the drag over the dynamic pressure of that air
+FlightBody.drag_area_standard_error_m2: standard error of this mean; None: the flight is too short
+FlightBody.reference_area_m2: reference area of the body
+FlightBody.drag_coefficient: drag area over the reference area
+FlightBody.mean_incidence_deg: mean angle between the axis of the body and that air
+FlightBody.in_fine_cells: share of the time with the whole body in the fine cells of the flow
 FlightCluster.canopies: number of canopies
 FlightCluster.first_spread_angle_deg: spread angle at the start
 FlightCluster.cluster_factor: drag coefficient in descent over that of one canopy; None: not given
