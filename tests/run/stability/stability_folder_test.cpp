@@ -241,8 +241,8 @@ TEST_F(StabilityFolder, CarriesTheWarningsOfTheRunOnTheAxis) {
   const std::string name = (folder_ / "whole/axis").string() + ": ";
   const auto& all = result_.warnings;
   int own = 0;
-  for (const auto& text : axis.at("warnings")) {
-    const auto is = [&](const std::string& one) { return one == text || one == name + std::string(text); };
+  for (const std::string text : axis.at("warnings")) {
+    const auto is = [&](const std::string& one) { return one == text || one == name + text; };
     EXPECT_EQ(std::count_if(all.begin(), all.end(), is), 1) << text;
     ++own;
   }
