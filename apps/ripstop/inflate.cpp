@@ -194,11 +194,13 @@ void print_openings(const ClusterOpening& cluster) {
   for (std::size_t k = 0; k < cluster.canopies.size(); ++k) {
     const CanopyOpening& canopy = cluster.canopies[k];
     row(fmt::format("canopy {}", k + 1).c_str(),
-        fmt::format("peak riser load {:.1f} N at {:.1f} ms, {}; at the end {:.1f} N, spread angle {:.1f} deg",
-                    canopy.peak_load, 1000 * canopy.peak_time,
-                    canopy.filling_time ? fmt::format("filled at {:.1f} ms", 1000 * *canopy.filling_time)
-                                        : std::string("not filled"),
-                    canopy.last_load, canopy.last_spread));
+        fmt::format(
+            "{}peak riser load {:.1f} N at {:.1f} ms, {}; at the end {:.1f} N, spread angle {:.1f} deg",
+            canopy.delay ? fmt::format("folded until {:.1f} ms; ", 1000 * *canopy.delay) : "",
+            canopy.peak_load, 1000 * canopy.peak_time,
+            canopy.filling_time ? fmt::format("filled at {:.1f} ms", 1000 * *canopy.filling_time)
+                                : std::string("not filled"),
+            canopy.last_load, canopy.last_spread));
   }
   row("time differences",
       fmt::format("peaks {:.1f} ms{}; smallest gap {:.3g} m at {:.1f} ms", 1000 * cluster.peak_difference,

@@ -104,6 +104,8 @@ TEST(ClusterCase, ImpossibleOnesAreRefusedWithTheirKey) {
             "cluster.equilibrium");
   EXPECT_EQ(key_of([](Case& c) { c.cluster->widest_spread_angle_deg = 19; }),
             "cluster.widest_spread_angle_deg");
+  EXPECT_EQ(key_of([](Case& c) { c.cluster->delays_s = {0, 0.1}; }), "cluster.delays_s");
+  EXPECT_EQ(key_of([](Case& c) { c.cluster->delays_s = {0, 0.1, -0.1}; }), "cluster.delays_s[2]");
   EXPECT_EQ(key_of([](Case& c) { c.bodies["box"].shape = BoxKeys{{0.1, 0.1, 0.1}}; }), "body.box");
 }
 
@@ -117,6 +119,15 @@ TEST(ClusterCase, CanopiesThatTouchAreRefusedWithTheAngleAndTheRiserThatSeparate
   EXPECT_TRUE(validate(given).empty());
   EXPECT_NE(problems.front().message.find("lengthen the riser ("), std::string::npos)
       << problems.front().message;
+}
+
+TEST(ClusterCase, DelaysThatARunDoesNotUseAreReported) {
+  Case given = cluster_case(2, 20);
+  EXPECT_TRUE(unused_delays(given, "a steady run").empty());
+  given.cluster->delays_s = {0, 0.1};
+  const std::vector<std::string> texts = unused_delays(given, "a steady run");
+  ASSERT_EQ(texts.size(), 1u);
+  EXPECT_EQ(texts.front().find("cluster.delays_s: not used; a steady run"), 0u) << texts.front();
 }
 
 TEST(ClusterCase, OtherCommandsComputeOneCanopy) {

@@ -134,7 +134,7 @@ TEST(Container, ConfinesClothUnderPressureAndTheEnergyBalanceCloses) {
   const CoupledOpening opening(opening_from_a_container());
   const Cloth& cloth = opening.cloth();
   const std::vector<int> held = ContainedCloth(opening.mesh(), opening.folded().positions).beyond(0.3);
-  Loads loads{std::vector<double>(opening.mesh().cell_count(), 300.0), {}, held};
+  Loads loads{std::vector<double>(opening.mesh().cell_count(), 300.0), {}, guided_along({0, 0, 1}, held)};
   const ClothState start = opening.start().cloth;
   const double dt = 0.5 * stability_limit(cloth, start).stable_step;
   const auto after = [&](int threads, StepRecord* record) {

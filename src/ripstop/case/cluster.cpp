@@ -1,6 +1,7 @@
 #include "ripstop/case/cluster.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -63,6 +64,11 @@ void describe(Fields& fields, ClusterKeys& keys) {
               "Largest angle between a canopy and the axis of the cluster in flight, for which the default "
               "flow domain is made.")
       .absent("the larger of `45` and spread_angle_deg + 15, at most `60`");
+  fields.numbers(
+      "delays_s", keys.delays_s, 0, most_in_cluster, from(0).up_to(1000),
+      "Times from the start of a coupled inflation until which each canopy stays folded, one value "
+      "for each canopy. A folded canopy moves along its own axis only. Empty: all canopies open at "
+      "the start. Not used in a steady run and in a flight.");
 }
 
 ClusterLayout layout_of(const ClusterKeys& keys) {
@@ -113,6 +119,14 @@ void check_cluster(const Case& given, const FlowSettings& flow, Findings& findin
     findings.add("cluster.widest_spread_angle_deg", *widest,
                  fmt::format("at least {:g}", given.cluster->spread_angle_deg),
                  "is below cluster.spread_angle_deg, the angle at the start");
+  if (const auto& delays = given.cluster->delays_s;
+      !delays.empty() && std::ssize(delays) != given.cluster->canopies)
+    findings.add(
+        "cluster.delays_s", fmt::format("[{:g}]", fmt::join(delays, ", ")),
+        fmt::format("{} values", given.cluster->canopies),
+        fmt::format("has {} values for cluster.canopies = {}; give the delay of each canopy, 0 for one "
+                    "that opens at the start",
+                    delays.size(), given.cluster->canopies));
   const double across = start_diameter(given.parachute);
   const Vec3 room = cluster_arm(given) * widest_layout(*given.cluster).width();
   const double needed[] = {room.x + across, room.y + across}, box[] = {flow.box_m.x, flow.box_m.y},
@@ -140,6 +154,14 @@ void check_cluster(const Case& given, const FlowSettings& flow, Findings& findin
                fmt::format("{} canopies of about {:.3g} m inflated diameter, {:.3g} m from the confluence, "
                            "touch; {}lengthen the riser (parachute.riser.length_m = {:g}) by {:.3g} m",
                            n, 2 * radius, arm, wider, given.parachute.riser.length_m, longer));
+}
+
+std::vector<std::string> unused_delays(const Case& given, const char* what) {
+  if (!given.cluster || given.cluster->delays_s.empty()) return {};
+  return {
+      fmt::format("cluster.delays_s: not used; {} has open canopies from the start. Only a coupled "
+                  "inflation (ripstop inflate) uses the delays",
+                  what)};
 }
 
 void require_one_canopy(const Settings& resolved, const char* what) {

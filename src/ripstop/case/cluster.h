@@ -2,6 +2,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "ripstop/core/vec3.h"
 #include "ripstop/parachute/cluster.h"
@@ -25,6 +27,7 @@ struct ClusterKeys {
   std::optional<double> single_drag_coefficient;               // of one canopy alone, for the cluster factor
   std::optional<double> single_descent_drag_coefficient = {};  // likewise of a flight
   std::optional<double> widest_spread_angle_deg = {};          // in flight, for the domain
+  std::vector<double> delays_s = {};  // of each canopy in a coupled inflation; empty: all open at once
 };
 void describe(Fields& fields, ClusterKeys& keys);
 
@@ -51,6 +54,8 @@ Vec3 core_for_cluster(const Case& given, double d);
 
 /// Settings that a cluster cannot have, and canopies that touch.
 void check_cluster(const Case& given, const FlowSettings& flow, Findings& findings);
+/// Keys of a coupled inflation that `what` does not use.
+std::vector<std::string> unused_delays(const Case& given, const char* what);
 /// Throws Error(usage) for a case with a cluster: `what` computes one canopy.
 void require_one_canopy(const Settings& resolved, const char* what);
 

@@ -192,6 +192,18 @@ LoadSource load_source(const Settings& opening) {
 
 namespace {
 
+/// Canopies that would not open within the inflation.
+void check_delays(const ClusterKeys& keys, const InflationSettings& inflation) {
+  for (std::size_t k = 0; k < keys.delays_s.size(); ++k)
+    if (!(keys.delays_s[k] < inflation.duration_s))
+      throw Error(
+          ExitCode::usage,
+          fmt::format("cluster.delays_s[{}] = {:g}: must be below inflation.duration_s = {:g} s, "
+                      "because the canopy would not open; shorten the delay or prolong the inflation. "
+                      "For a canopy that fails, see docs/guide/cluster-of-canopies.md",
+                      k, keys.delays_s[k], inflation.duration_s));
+}
+
 /// Throws Error(usage) for settings that the opening of a cluster cannot have.
 void check_cluster_opening(const Settings& opening) {
   const Case& given = opening.written();
@@ -209,6 +221,7 @@ void check_cluster_opening(const Settings& opening) {
     refuse(
         "deployment: the opening of a cluster begins with folded canopies outside of their container; remove "
         "the table and give inflation.initial_radius_m, or compute one canopy (--unset cluster)");
+  check_delays(*given.cluster, opening.inflation());
 }
 
 }  // namespace
@@ -218,7 +231,8 @@ InflationProblem opening_problem(const Settings& opening, const LoadSource& sour
   require_axial_stream(opening.flow(), "an opening");
   check_cluster_opening(opening);
   InflationProblem problem;
-  if (const auto& keys = opening.written().cluster) problem.cluster = layout_of(*keys);
+  if (const auto& keys = opening.written().cluster)
+    problem.cluster = layout_of(*keys), problem.delays = keys->delays_s;
   problem.mesh = parachute_mesh(opening);
   problem.settings = opening.inflation();
   if (opening.inflation().air == AirModel::coupled) {

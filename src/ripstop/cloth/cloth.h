@@ -29,12 +29,20 @@ struct ClothOptions {
   std::optional<ContactOptions> contact = {};  // of make_cloth(); relax() leaves it out
 };
 
+/// A node that explicit steps move along one axis only.
+struct GuidedNode {
+  int node = -1;
+  Vec3 along{0, 0, 1};  // unit vector of the axis
+};
+/// All of them along the same axis.
+std::vector<GuidedNode> guided_along(Vec3 axis, const std::vector<int>& nodes);
+
 /// Pressure difference on every cell (inside minus outside, [Pa]; order of cells_of()), and
 /// optional point forces.
 struct Loads {
   std::vector<double> cell_pressure;
-  std::vector<Vec3> node_force;  // empty, or one a node [N]
-  std::vector<int> guided = {};  // nodes that explicit steps move along the z axis only
+  std::vector<Vec3> node_force;         // empty, or one a node [N]
+  std::vector<GuidedNode> guided = {};  // other nodes move freely
 };
 
 /// The compiled, immutable cloth: kernel layout, ties, masses. Shared by every state that is stepped over it.

@@ -99,8 +99,12 @@ class ExplicitStep {
   std::vector<double> irregular_inverse_mass_;  // 0: does not move
   Contact* contact_;                            // may be null
   int steps_per_kick_ = 0;
-  std::vector<int> guided_;             // slots of regular nodes that move along z only, in order
-  std::vector<char> irregular_guided_;  // whether irregular nodes do
+  struct GuidedSlot {
+    int slot;
+    Vec3 along;
+  };
+  std::vector<GuidedSlot> guided_;             // regular nodes, in the order of their slots
+  std::vector<const Vec3*> irregular_guided_;  // axes of irregular nodes; null: they move freely
   std::optional<EnergyRecord> record_;
 };
 
@@ -119,16 +123,17 @@ ExplicitStep::ExplicitStep(ClothState& state, const Cloth& cloth, const Loads& l
     return cloth.is_fixed[node] || !(cloth.total_mass[node] > 0) ? 0.0 : 1 / cloth.total_mass[node];
   };
   for (int node = 0; node < cloth.mesh.node_count(); ++node) inverse_mass_[cloth.slot[node]] = inverse(node);
-  std::vector<char> is_guided(cloth.mesh.node_count(), 0);
-  for (const int node : loads.guided) is_guided[node] = 1;
+  std::vector<const Vec3*> axis_of(cloth.mesh.node_count(), nullptr);
+  for (const GuidedNode& guided : loads.guided) axis_of[guided.node] = &guided.along;
   for (const Cloth::IrregularNode& irregular : cloth.irregular) {
     irregular_inverse_mass_.push_back(inverse(irregular.node));
-    irregular_guided_.push_back(is_guided[irregular.node]);
+    irregular_guided_.push_back(axis_of[irregular.node]);
     inverse_mass_[irregular.slot] = 0;
   }
-  for (const int node : loads.guided)
-    if (inverse_mass_[cloth.slot[node]] > 0) guided_.push_back(cloth.slot[node]);
-  std::sort(guided_.begin(), guided_.end());
+  for (const GuidedNode& guided : loads.guided)
+    if (const int slot = cloth.slot[guided.node]; inverse_mass_[slot] > 0)
+      guided_.push_back({slot, guided.along});
+  std::ranges::sort(guided_, {}, &GuidedSlot::slot);
   if (damped_) {
     area_.assign(cloth.slots, 0.0);
     for (int node = 0; node < cloth.mesh.node_count(); ++node)
@@ -187,14 +192,15 @@ void ExplicitStep::integrate_row(int row, const double* f) {
   if (!guided_.empty()) guide_row(row);
 }
 
-/// Takes back the motion of guided nodes across z.
+/// Takes back the motion of guided nodes across their axes.
 void ExplicitStep::guide_row(int row) {
   const int begin = cloth_.row_slot(row), end = begin + cloth_.patches[cloth_.row_patch[row]].row_slots();
-  for (auto slot = std::lower_bound(guided_.begin(), guided_.end(), begin);
-       slot != guided_.end() && *slot < end; ++slot) {
-    const Vec3 x = get(state_.x.data(), *slot), v = get(state_.v.data(), *slot);
-    put(state_.x.data(), *slot, {x.x - dt_ * v.x, x.y - dt_ * v.y, x.z});
-    put(state_.v.data(), *slot, {0, 0, v.z});
+  for (auto guided = std::ranges::lower_bound(guided_, begin, {}, &GuidedSlot::slot);
+       guided != guided_.end() && guided->slot < end; ++guided) {
+    const Vec3 x = get(state_.x.data(), guided->slot), v = get(state_.v.data(), guided->slot);
+    const Vec3 kept = dot(v, guided->along) * guided->along;
+    put(state_.x.data(), guided->slot, x - dt_ * (v - kept));
+    put(state_.v.data(), guided->slot, kept);
   }
 }
 
@@ -203,13 +209,19 @@ void ExplicitStep::integrate_irregular(int begin, int end) {
     if (irregular_inverse_mass_[k] == 0) continue;
     const int slot = cloth_.irregular[k].slot;
     Vec3 v = get(state_.v.data(), slot) + (dt_ * irregular_inverse_mass_[k]) * forces_.on_irregular(k);
-    if (irregular_guided_[k]) v.x = v.y = 0;
+    if (const Vec3* along = irregular_guided_[k]) v = dot(v, *along) * *along;
     put(state_.v.data(), slot, v);
     put(state_.x.data(), slot, get(state_.x.data(), slot) + dt_ * v);
   }
 }
 
 }  // namespace
+
+std::vector<GuidedNode> guided_along(Vec3 axis, const std::vector<int>& nodes) {
+  std::vector<GuidedNode> guided;
+  for (const int node : nodes) guided.push_back({node, axis});
+  return guided;
+}
 
 void step(ClothState& state, const Cloth& cloth, const Loads& loads, double dt, int count, ThreadTeam& team,
           StepRecord* record) {

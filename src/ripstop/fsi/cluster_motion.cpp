@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "ripstop/core/error.h"
+#include "ripstop/fsi/summary.h"
 
 namespace ripstop::inline fsi {
 namespace {
@@ -168,13 +169,15 @@ ClusterMotion summarise_cluster(const std::vector<CanopyRow>& rows, int canopies
   return motion;
 }
 
-ClusterOpening summarise_openings(const std::vector<CanopyRow>& rows, int canopies, double start_up) {
+ClusterOpening summarise_openings(const std::vector<CanopyRow>& rows, int canopies, double start_up,
+                                  const std::vector<double>& delays) {
   constexpr double last = 0.8;  // of the opening
   if (rows.empty()) throw Error(ExitCode::usage, "an opening without a row has no loads");
   ClusterOpening opening;
   opening.canopies.resize(static_cast<std::size_t>(canopies));
   const double from = last * rows.back().time;
-  std::vector<OverTime> load(opening.canopies.size()), mouth = load;
+  std::vector<OverTime> load(opening.canopies.size());
+  std::vector<std::vector<AreaAt>> mouth(opening.canopies.size());
   const auto of_row = [](const CanopyRow& row) { return static_cast<std::size_t>(row.canopy) - 1; };
   opening.smallest_gap = std::numeric_limits<double>::infinity();
   for (const CanopyRow& row : rows) {
@@ -182,13 +185,15 @@ ClusterOpening summarise_openings(const std::vector<CanopyRow>& rows, int canopi
     if (row.time > start_up && row.riser_load > canopy.peak_load)
       canopy.peak_load = row.riser_load, canopy.peak_time = row.time;
     if (row.gap < opening.smallest_gap) opening.smallest_gap = row.gap, opening.smallest_gap_time = row.time;
-    if (row.time > from) load[of_row(row)].add(row.riser_load, 1), mouth[of_row(row)].add(row.mouth_area, 1);
+    if (row.time > from) load[of_row(row)].add(row.riser_load, 1);
+    mouth[of_row(row)].push_back({row.time, row.mouth_area});
     canopy.last_spread = row.spread;
   }
-  for (std::size_t k = 0; k < load.size(); ++k) opening.canopies[k].last_load = load[k].mean();
-  for (const CanopyRow& row : rows) {
-    std::optional<double>& filled = opening.canopies[of_row(row)].filling_time;
-    if (!filled && row.time <= from && row.mouth_area >= mouth[of_row(row)].mean()) filled = row.time;
+  for (std::size_t k = 0; k < load.size(); ++k) {
+    CanopyOpening& canopy = opening.canopies[k];
+    canopy.last_load = load[k].mean();
+    if (!delays.empty()) canopy.delay = delays[k];
+    if (const auto filling = filling_of(mouth[k])) canopy.filling_time = filling->time;
   }
   const auto [first, second] = std::minmax_element(
       opening.canopies.begin(), opening.canopies.end(),

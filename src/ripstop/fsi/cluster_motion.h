@@ -95,14 +95,15 @@ ClusterMotion summarise_cluster(const std::vector<CanopyRow>& rows, int canopies
 
 /// The opening of one canopy of a cluster.
 struct CanopyOpening {
+  std::optional<double> delay;          // until then it stays folded; absent: no canopy has one [s]
   double peak_load = 0, peak_time = 0;  // of the riser, of all rows after the start-up [N], [s]
   double last_load = 0;                 // mean over the last fifth [N]
-  /// When the area of its mouth first reaches its mean over the last fifth; absent: not before that [s].
-  std::optional<double> filling_time;
-  double last_spread = 0;  // spread angle at the end [deg]
+  std::optional<double> filling_time;   // filling_of() the area of its mouth; absent: it has not filled [s]
+  double last_spread = 0;               // spread angle at the end [deg]
 };
 template <Of<CanopyOpening> T, class Visit>
 void each_member(T& c, Visit&& visit) {
+  visit("delay_s", c.delay);
   visit("peak_riser_load_n", c.peak_load);
   visit("peak_riser_load_time_s", c.peak_time);
   visit("last_riser_load_n", c.last_load);
@@ -126,6 +127,8 @@ void each_member(T& c, Visit&& visit) {
 }
 
 /// Of rows in the order of time, in which every time has one row for each canopy; peaks are sought after `start_up` [s].
-ClusterOpening summarise_openings(const std::vector<CanopyRow>& rows, int canopies, double start_up);
+/// `delays` of the canopies [s]: empty, or one for each. All times are from the start of the opening.
+ClusterOpening summarise_openings(const std::vector<CanopyRow>& rows, int canopies, double start_up,
+                                  const std::vector<double>& delays = {});
 
 }  // namespace ripstop::inline fsi

@@ -45,7 +45,7 @@ class ContainedCloth {
   /// largest.
   ContainedCloth(const Mesh& mesh, const std::vector<Vec3>& folded);
 
-  /// Loads::guided: the nodes farther from the skirt than this share of the canopy's length.
+  /// Those that the container guides: the nodes farther from the skirt than this share of the canopy's length.
   std::vector<int> beyond(double share) const;
 
  private:

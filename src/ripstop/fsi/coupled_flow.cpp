@@ -161,7 +161,7 @@ Loads CoupledFlow::last_load(const Surroundings& surroundings, const AirMemory& 
 // folded cloth most of the last load is traction, which the drop of the faces contains: the motion of the sheet is
 // that without the tractions, else the air would respond to them twice. Guided cloth moves as predicted.
 SheetMotion CoupledFlow::sheet_motion(const std::vector<Vec3>& positions, const ClothMotion& predicted,
-                                      double length, const std::vector<int>& guided,
+                                      double length, const std::vector<GuidedNode>& guided,
                                       const AirMemory& memory) const {
   SheetMotion motion;
   MovingCells cells;
@@ -174,7 +174,7 @@ SheetMotion CoupledFlow::sheet_motion(const std::vector<Vec3>& positions, const 
   }
   for (const double mass : mass_) motion.yields.push_back(mean_share(predicted.steps) * length / mass);
   std::vector<char> is_guided(node_mass_.size(), 0);
-  for (const int node : guided) is_guided[node] = 1;
+  for (const GuidedNode& one : guided) is_guided[one.node] = 1;
   for (std::size_t c = 0; c < cells_.size(); ++c) {
     if (cells_[c].corner[0] < 0) continue;
     const std::size_t triangle = 2 * cells.centre.size();  // the first of two

@@ -106,8 +106,8 @@ struct Surroundings {
   double density_ratio = 1;  // of the air to that at deployment
   int node = -1;             // on which `force` acts [N]; -1: none
   Vec3 force;
-  std::vector<int> guided = {};       // Loads::guided in the step
-  std::vector<Placement> rigid = {};  // of the rigid bodies; empty: at rest in the box
+  std::vector<GuidedNode> guided = {};  // Loads::guided in the step
+  std::vector<Placement> rigid = {};    // of the rigid bodies; empty: at rest in the box
 };
 
 /// Predicted motion of the cloth over one step of the flow.
@@ -160,7 +160,7 @@ class CoupledFlow {
  private:
   double cell_width() const;  // [m]
   SheetMotion sheet_motion(const std::vector<Vec3>& positions, const ClothMotion& predicted, double length,
-                           const std::vector<int>& guided, const AirMemory& memory) const;
+                           const std::vector<GuidedNode>& guided, const AirMemory& memory) const;
 
   ThreadTeam* team_;
   std::shared_ptr<FlowEngine> engine_;

@@ -81,6 +81,9 @@ CoupledOpening::CoupledOpening(InflationProblem problem)
   require_apart(surface_of(cells_of(mesh()), folded().positions), problem.air->flow.bodies);
   require_lines_apart(mesh(), folded().positions, problem.air->flow.bodies);
   if (problem.air->container) contained_.emplace(mesh(), folded().positions);
+  for (std::size_t k = 0; k < problem.delays.size(); ++k)
+    delayed_.push_back(problem.delays[k] > 0 ? cloths().guided_canopy(static_cast<int>(k))
+                                             : std::vector<GuidedNode>{});
 }
 
 InflationState CoupledOpening::start() const {
@@ -128,6 +131,15 @@ std::vector<int> CoupledOpening::contained(const AirMemory& air) const {
   return contained_->beyond(air.container->farthest / problem().air->container->canopy_length);
 }
 
+/// The cloth of the canopies whose delay has not passed.
+std::vector<GuidedNode> CoupledOpening::held(double time) const {
+  std::vector<GuidedNode> nodes;
+  for (std::size_t k = 0; k < delayed_.size(); ++k)
+    if (time * (1 + 1e-12) < problem().delays[k])
+      nodes.insert(nodes.end(), delayed_[k].begin(), delayed_[k].end());
+  return nodes;
+}
+
 /// Over a step of `length` [s], at whose beginning the nodes lay at `before`: the force between container and cloth [N].
 double CoupledOpening::advance_container(const std::vector<int>& inside, const std::vector<Vec3>& before,
                                          double length, InflationState& state) const {
@@ -154,8 +166,8 @@ AirRow CoupledOpening::step(InflationState& state, int rows, std::vector<History
   PayloadMotion& flight = state.air.flight;
   if (state.air.steps == 0) deploy_at_start(state.air);
   Surroundings surroundings = payload ? in_flight(flight, *payload, length) : Surroundings{};
-  surroundings.guided = contained(state.air);
-  const std::vector<int>& inside = surroundings.guided;
+  const std::vector<int> inside = contained(state.air);
+  surroundings.guided = inside.empty() ? held(state.cloth.time) : guided_along({0, 0, 1}, inside);
   const std::vector<Vec3> before = inside.empty() ? std::vector<Vec3>{} : positions(state.cloth, cloth());
   const double speed = flight.speed + length * flight.acceleration;
 

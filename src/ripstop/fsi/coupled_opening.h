@@ -25,13 +25,15 @@ class CoupledOpening : public Opening {
   AirRow step(InflationState& state, int rows, std::vector<HistoryRow>& history);
   void deploy_at_start(AirMemory& air) const;
   std::vector<int> contained(const AirMemory& air) const;
+  std::vector<GuidedNode> held(double time) const;
   double advance_container(const std::vector<int>& inside, const std::vector<Vec3>& before, double length,
                            InflationState& state) const;
   void compute_added_mass(InflationState& state) const;
   int rows_of_next_step(const InflationState& state, int left);
 
   std::unique_ptr<CoupledFlow> air_;
-  std::optional<ContainedCloth> contained_;  // where the problem has a container
+  std::optional<ContainedCloth> contained_;       // where the problem has a container
+  std::vector<std::vector<GuidedNode>> delayed_;  // the cloth of every canopy that opens later
 };
 
 }  // namespace ripstop::inline fsi

@@ -25,6 +25,7 @@ struct InflationProblem {
   std::optional<AirProblem> air = {};
   std::vector<ReefingLine> reefing = {};      // in the order of their cuts
   std::optional<ClusterLayout> cluster = {};  // `mesh` is one of its canopies, not yet joined
+  std::vector<double> delays = {};            // of its canopies: they stay folded until then [s]; empty: 0
 };
 
 class Opening {
@@ -66,6 +67,7 @@ class Opening {
   /// Counts the block, cuts reefing lines that are due and takes a snapshot. Returns whether a line was cut.
   bool end_block(InflationState& state) const;
   const Cloth& cloth_of(const InflationState& state) const { return cloths_.of_stage(state); }
+  const OpeningCloth& cloths() const { return cloths_; }
   int blocks_per_frame() const { return blocks_per_frame_; }
   const AdaptiveStepper& stepper() const { return stepper_; }
   ThreadTeam& team() { return team_; }

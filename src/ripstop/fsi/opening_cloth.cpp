@@ -157,6 +157,16 @@ std::vector<std::vector<Vec3>> OpeningCloth::upright(const std::vector<Vec3>& x)
   return canopies;
 }
 
+std::vector<GuidedNode> OpeningCloth::guided_canopy(int k) const {
+  const CanopyMesh& canopy = cluster_->one();
+  const std::size_t first = static_cast<std::size_t>(k) * canopy.start.size();
+  std::vector<int> nodes;
+  for (const Patch& patch : canopy.patches)
+    for (int node = patch.first_node; node < patch.first_node + patch.rows * patch.columns; ++node)
+      nodes.push_back(joined_[first + static_cast<std::size_t>(node)]);
+  return guided_along(cluster_->frame(k).z, nodes);
+}
+
 ClothState OpeningCloth::start() const {
   ClothState state = start_state(open());
   set_positions(state, open(), start_);

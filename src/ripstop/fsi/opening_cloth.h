@@ -44,6 +44,9 @@ class OpeningCloth {
   /// With the reefing line of the present stage.
   const Cloth& of_stage(const InflationState& state) const { return *stages_[state.cuts.size()]; }
 
+  /// The cloth of canopy `k` of a cluster, which stays folded: it moves along the axis of the canopy only.
+  std::vector<GuidedNode> guided_canopy(int k) const;
+
   /// The folded start with its imperfection, at rest.
   ClothState start() const;
   /// Of an imperfection, or of a start that folds with some strain [J].

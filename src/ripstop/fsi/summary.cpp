@@ -134,47 +134,49 @@ std::vector<StageSummary> summarise_stages(const std::vector<HistoryRow>& rows,
 
 namespace {
 
-/// The first of the frames whose mean area is that of the full canopy: of the last fifth, or where the canopy is largest
+/// The first of the areas whose mean is that of the full canopy: of the last fifth, or where the canopy is largest
 /// within it and then contracts, of those that follow.
-std::size_t begin_of_full(const std::vector<InflationFrame>& frames) {
+std::size_t begin_of_full(const std::vector<AreaAt>& areas) {
   constexpr double contracted = 0.95;  // of the largest area: less is no scatter of a canopy that still grows
-  const auto smaller = [](const InflationFrame& a, const InflationFrame& b) {
-    return a.size.projected_area < b.size.projected_area;
-  };
-  const std::size_t last = frames.size() - frames.size() / 5;
-  const auto largest = std::max_element(frames.begin(), frames.end(), smaller);
-  const auto least = std::min_element(largest, frames.end(), smaller);
-  const auto at = static_cast<std::size_t>(largest - frames.begin());
-  const bool past = least->size.projected_area < contracted * largest->size.projected_area;
+  const std::size_t last = areas.size() - areas.size() / 5;
+  const auto largest = std::ranges::max_element(areas, {}, &AreaAt::area);
+  const auto least = std::ranges::min_element(largest, areas.end(), {}, &AreaAt::area);
+  const auto at = static_cast<std::size_t>(largest - areas.begin());
+  const bool past = least->area < contracted * largest->area;
   return at >= last && past ? at + 1 : last;
 }
 
 }  // namespace
 
-std::optional<Filling> filling_of(const std::vector<InflationFrame>& frames) {
+std::optional<Filling> filling_of(const std::vector<AreaAt>& areas) {
   constexpr double folded =
       0.5;  // of the area when full: a canopy that starts with more has not opened since
-  if (frames.size() < 5) return {};
-  const std::size_t last = begin_of_full(frames);
+  if (areas.size() < 5) return {};
+  const std::size_t last = begin_of_full(areas);
   double full = 0;
-  for (std::size_t i = last; i < frames.size(); ++i)
-    full += frames[i].size.projected_area / double(frames.size() - last);
-  if (frames.front().size.projected_area > folded * full) return {};
+  for (std::size_t i = last; i < areas.size(); ++i) full += areas[i].area / double(areas.size() - last);
+  if (areas.front().area > folded * full) return {};
   full *= 1 - 1e-9;  // a constant area reaches its mean to rounding only
   std::size_t first = 0;
-  while (first < last && frames[first].size.projected_area < full) ++first;
+  while (first < last && areas[first].area < full) ++first;
   if (first == last || first == 0) return {};
-  const InflationFrame &a = frames[first - 1], &b = frames[first];
-  const double share = (full - a.size.projected_area) / (b.size.projected_area - a.size.projected_area);
+  const AreaAt &a = areas[first - 1], &b = areas[first];
+  const double share = (full - a.area) / (b.area - a.area);
   Filling filling{a.time + share * (b.time - a.time), 0};
   double products = 0, squares = 0;
   for (std::size_t i = 0; i < first; ++i) {
-    if (!(frames[i].size.projected_area > 0 && frames[i].time > 0)) continue;
-    const double t = std::log(frames[i].time / filling.time);
-    products += t * std::log(frames[i].size.projected_area / full), squares += t * t;
+    if (!(areas[i].area > 0 && areas[i].time > 0)) continue;
+    const double t = std::log(areas[i].time / filling.time);
+    products += t * std::log(areas[i].area / full), squares += t * t;
   }
   if (squares > 0) filling.exponent = products / squares;
   return filling;
+}
+
+std::optional<Filling> filling_of(const std::vector<InflationFrame>& frames) {
+  std::vector<AreaAt> areas;
+  for (const InflationFrame& frame : frames) areas.push_back({frame.time, frame.size.projected_area});
+  return filling_of(areas);
 }
 
 HighestLoad highest_load(const std::vector<HistoryRow>& rows, double start_up) {

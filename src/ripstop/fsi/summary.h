@@ -24,13 +24,20 @@ struct InflationSummary {
 /// the low-passed history. Peaks and filling are sought after `start_up` [s].
 InflationSummary summarise(const std::vector<HistoryRow>& rows, double low_pass_hz, double start_up = 0);
 
-/// First full inflation, by the projected area.
+/// Projected area of a canopy, or that of its mouth.
+struct AreaAt {
+  double time = 0, area = 0;  // [s], [m2]
+};
+/// First full inflation.
 struct Filling {
   double time = 0;      // when the area first reaches its mean when full [s]
   double exponent = 0;  // j of the least squares fit ln(area / that mean) = j ln(t / time)
 };
 /// The canopy is full in the last fifth of the opening, or where its area is largest in it and then decreases by more
 /// than 5 %, after that maximum. Nothing for an opening that does not reach the mean area before: it has not filled.
+/// The areas are in the order of time.
+std::optional<Filling> filling_of(const std::vector<AreaAt>& areas);
+/// By the projected area.
 std::optional<Filling> filling_of(const std::vector<InflationFrame>& frames);
 
 /// The largest load over every step of the rows that begin after `start_up` [s], of all rows where none does.

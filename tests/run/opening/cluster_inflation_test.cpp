@@ -89,6 +89,59 @@ TEST(ClusterInflation, StartsWithEveryCanopyFoldedAtRestAboutItsOwnAxis) {
   }
 }
 
+/// Largest distance across the axis of canopy `k` between the positions of its cloth and its folded ones [m].
+double unfolded(const Opening& solver, const std::vector<Vec3>& x, int k) {
+  const double azimuth = ClusterLayout{2, 0}.azimuth(k), tilt = spread * std::numbers::pi / 180;
+  const Vec3 axis{std::cos(azimuth) * std::sin(tilt), std::sin(azimuth) * std::sin(tilt), std::cos(tilt)};
+  double most = 0;
+  for (const Patch& patch : solver.mesh().patches) {
+    if (patch.piece != k) continue;
+    for (int node = patch.first_node; node < patch.first_node + patch.rows * patch.columns; ++node) {
+      const Vec3 moved = x[node] - solver.folded().positions[node];
+      most = std::max(most, norm(moved - dot(moved, axis) * axis));
+    }
+  }
+  return most;
+}
+
+TEST(ClusterInflation, ACanopyStaysFoldedUntilItsDelayAndThenOpens) {
+  Case given = two_canopies();
+  given.cluster->delays_s = {0, 3e-3};
+  const Settings resolved = resolve(opening_case(checked(given)));
+  const auto solver = make_opening(with_engine(resolved, problem_of(resolved)));
+  InflationState state = solver->start();
+  const auto open_until = [&](double time) {
+    while (state.cloth.time < time * (1 - 1e-9)) solver->advance(state);
+    return positions(state.cloth, solver->cloth());
+  };
+  const std::vector<Vec3> held = open_until(2e-3);
+  EXPECT_LT(unfolded(*solver, held, 1), 1e-9);
+  EXPECT_GT(unfolded(*solver, held, 0), 2e-3);
+  const std::vector<CanopyRow> rows = solver->canopy_rows(state);
+  EXPECT_GT(rows[1].riser_load, 1) << "the air pulls at the folded canopy, and it at its lines";
+  EXPECT_GT(rows[0].mouth_area, 1.02 * rows[1].mouth_area);
+  const std::vector<Vec3> released = open_until(6e-3);
+  EXPECT_GT(unfolded(*solver, released, 1), 2e-3);
+}
+
+TEST(ClusterInflation, DelaysAreInTheResult) {
+  const InflationSolution solution = opened([](Case& given) {
+    given.cluster->delays_s = {0, 3e-3}, given.inflation.duration_s = 4e-3;
+  });
+  const ClusterOpening& cluster = solution.result.cluster.value();
+  EXPECT_EQ(cluster.canopies[1].delay.value(), 3e-3);
+  EXPECT_LT(solution.result.energy_residual, 0.02);
+  EXPECT_NE(to_json(solution.result).find("\"delay_s\": 0.003"), std::string::npos);
+}
+
+TEST(ClusterInflation, WithoutADelayIsThatOfDelaysOfZero) {
+  const auto short_one = [](Case& given) { given.inflation.duration_s = 2e-3, given.inflation.frames = 1; };
+  const InflationSolution without = opened(short_one), with = opened([&](Case&given) {
+                                                         short_one(given), given.cluster->delays_s = {0, 0};
+                                                       });
+  EXPECT_EQ(with.state.cloth.x, without.state.cloth.x);
+}
+
 TEST(ClusterInflation, RandomImperfectionsOfTheCanopiesDiffer) {
   Case given = two_canopies();
   given.inflation.imperfection_m = 0.01, given.inflation.imperfection_seed = 1;
@@ -127,6 +180,10 @@ TEST(ClusterInflation, RefusesUniformPressureReefingAndDeployment) {
   EXPECT_EQ(refused(uniform).find("inflation.air = \"uniform\""), 0u) << refused(uniform);
   EXPECT_EQ(refused(reefed).find("inflation.reefing"), 0u) << refused(reefed);
   EXPECT_EQ(refused(deployed).find("deployment"), 0u) << refused(deployed);
+  const auto too_late = [](Case& given) { given.cluster->delays_s = {0, 6e-3}; };
+  EXPECT_EQ(
+      refused(too_late).find("cluster.delays_s[1] = 0.006: must be below inflation.duration_s = 0.006 s"), 0u)
+      << refused(too_late);
 }
 
 TEST(ClusterInflation, InAFolderHasARowForEachCanopy) {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "ripstop/case/assemble.h"
+#include "ripstop/case/cluster.h"
 #include "ripstop/case/opening.h"
 #include "ripstop/case/payload.h"
 #include "ripstop/core/error.h"
@@ -191,6 +192,7 @@ void take_quality(FlightResult& r, const Settings& resolved) {
   if (r.cluster) values.push_back({"pierced_edges", r.cluster->pierced});
   Judgement judgement = judge(values);
   if (r.cluster) judgement.add(canopy_warnings(*r.cluster));
+  judgement.add(unused_delays(resolved.written(), "a flight of a cluster"));
   judgement.add(margin_warnings(r.margins));
   judgement.add(mesh_warnings(resolved));
   judgement.add(air_warnings(resolved));

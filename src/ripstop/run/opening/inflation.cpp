@@ -197,6 +197,18 @@ std::vector<std::string> opening_body_warnings(const Settings& resolved, const O
                   resolved.written().bodies.begin()->first)};
 }
 
+/// A canopy that has not filled, although the mean of all canopies has.
+std::vector<std::string> unfilled_warnings(const ClusterOpening& cluster, double duration) {
+  std::vector<std::string> all;
+  for (std::size_t k = 0; k < cluster.canopies.size(); ++k)
+    if (!cluster.canopies[k].filling_time)
+      all.push_back(fmt::format(
+          "canopy {} of the cluster has not filled within inflation.duration_s = {:g} s: its peak "
+          "load is that until then; increase the duration{}",
+          k + 1, duration, cluster.canopies[k].delay.value_or(0) > 0 ? ", or reduce its delay" : ""));
+  return all;
+}
+
 void take_quality(InflationResult& r, const Settings& resolved, const Opening& solver,
                   const InflationHistory& history) {
   r.energy_residual = energy_residual(history.frames);
@@ -240,6 +252,8 @@ void take_quality(InflationResult& r, const Settings& resolved, const Opening& s
         {fmt::format("the canopy has not filled within inflation.duration_s = {:g} s: peak loads are "
                      "those until then, and C_x and X_1 are not computed; increase the duration",
                      solver.problem().settings.duration_s)});
+  if (r.cluster && r.filled.value_or(true))
+    judgement.add(unfilled_warnings(*r.cluster, r.settings.duration_s));
   std::optional<double> distance;
   for (const AirRow& row : history.air)
     if (row.time <= r.smooth_peak_time.value_or(r.peak_time))
@@ -303,7 +317,8 @@ InflationResult result_of(const Settings& resolved, const LoadSource& source, co
   r.margins = case_margins(resolved, solver.mesh(), state.record.peak_tension, r.stress, line_peaks(r.stages),
                            r.peak_load);
   compare_with_handbook(r, resolved, source, solver);
-  if (solver.canopies() > 1) r.cluster = summarise_openings(history.canopies, solver.canopies(), start_up);
+  if (solver.canopies() > 1)
+    r.cluster = summarise_openings(history.canopies, solver.canopies(), start_up, solver.problem().delays);
   take_quality(r, resolved, solver, history);
   r.steps = state.cloth.steps;
   r.step_changes = state.step_changes;

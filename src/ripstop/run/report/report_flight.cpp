@@ -1,7 +1,5 @@
 #include "ripstop/run/report/report_flight.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -11,7 +9,6 @@
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/file.h"
 #include "ripstop/fsi/carried_bodies.h"
-#include "ripstop/fsi/cluster_motion.h"
 #include "ripstop/fsi/flight_record.h"
 #include "ripstop/fsi/opening_end.h"
 #include "ripstop/fsi/opening_record.h"
@@ -126,30 +123,6 @@ std::vector<ReportPlot> plots_from(const Before& before, const std::vector<FreeF
   return {std::move(load), std::move(angle), std::move(speed), std::move(place), std::move(mouth)};
 }
 
-/// Of a cluster: a curve for each canopy.
-template <class Value>
-ReportPlot canopies_over_time(const char* id, const char* title, ReportColumn y,
-                              const std::vector<CanopyRow>& rows, Value value) {
-  ReportPlot plot = over_time(id, title, std::move(y));
-  for (const CanopyRow& row : rows) {
-    const auto k = static_cast<std::size_t>(row.canopy) - 1;
-    if (k == plot.series.size())
-      plot.series.push_back({fmt::format("canopy {}", k + 1), {}, {}, true, false});
-    plot.series[k].x.push_back(row.time), plot.series[k].y.push_back(value(row));
-  }
-  for (ReportSeries& series : plot.series) series = thinned(std::move(series));
-  return plot;
-}
-
-void add_canopies(std::vector<ReportPlot>& plots, const fs::path& folder) {
-  if (!fs::exists(folder / "canopies.csv")) return;
-  const auto rows = read_rows<CanopyRow>(folder / "canopies.csv");
-  plots.push_back(canopies_over_time("spread", "Spread angle of the canopies", {"angle", "°"}, rows,
-                                     [](const CanopyRow& r) { return r.spread; }));
-  plots.push_back(canopies_over_time("risers", "Riser loads of the canopies", {"load", "N"}, rows,
-                                     [](const CanopyRow& r) { return r.riser_load; }));
-}
-
 /// Of rigid bodies, in the order of their names.
 void add_bodies(std::vector<ReportPlot>& plots, const Settings& resolved, const fs::path& folder) {
   if (!fs::exists(folder / "bodies.csv")) return;
@@ -192,7 +165,8 @@ void add_flight(ReportRun& run, const Settings& resolved, const fs::path& folder
   const auto rows = read_rows<FreeFlightRow>(folder / "path.csv");
   const Before before = inflation_in(folder);
   run.plots = plots_from(before, rows);
-  add_canopies(run.plots, folder);
+  for (ReportPlot& plot : canopy_plots(folder))
+    if (plot.id != "mouths") run.plots.push_back(std::move(plot));
   add_bodies(run.plots, resolved, folder);
   const double began = handover(folder, "time_s").value_or(0),
                below = handover(folder, "path_angle_deg").value_or(90) * std::numbers::pi / 180;

@@ -4,9 +4,12 @@
 #include <cmath>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "ripstop/core/words.h"
+#include "ripstop/fsi/cluster_motion.h"
 #include "ripstop/output/csv.h"
+#include "ripstop/run/canopy_curves.h"
 #include "ripstop/run/report/report_tables.h"
 
 namespace ripstop::inline run {
@@ -182,12 +185,30 @@ std::vector<ReportPlot> opening_plots(const ReportRun& run, const CsvTable& hist
   return plots;
 }
 
+std::vector<ReportPlot> canopy_plots(const fs::path& folder) {
+  std::vector<ReportPlot> plots;
+  if (!fs::exists(folder / "canopies.csv")) return plots;
+  const auto rows = read_rows<CanopyRow>(folder / "canopies.csv");
+  const auto add = [&](const char* id, const char* title, ReportColumn y, double CanopyRow::*value) {
+    ReportPlot made = plot(id, title, seconds, std::move(y));
+    made.over_time = true;
+    for (const PlotSeries& curve : canopy_curves(rows, [&](const CanopyRow& row) { return row.*value; }))
+      made.series.push_back(thinned({curve.name, curve.x, curve.y, true, false}));
+    plots.push_back(std::move(made));
+  };
+  add("spread", "Spread angle of the canopies", {"angle", "°"}, &CanopyRow::spread);
+  add("risers", "Riser loads of the canopies", {"load", "N"}, &CanopyRow::riser_load);
+  add("mouths", "Areas of the mouths of the canopies", {"area", "m²"}, &CanopyRow::mouth_area);
+  return plots;
+}
+
 std::vector<ReportPlot> plots_of(const ReportRun& run, const fs::path& folder) {
   std::vector<ReportPlot> plots =
       run.kind == "opening"
           ? opening_plots(run, table_in(folder / "history.csv"), table_in(folder / "history_low_pass.csv"),
                           table_in(folder / "balance.csv"))
           : steady_plots(folder);
+  for (ReportPlot& found : canopy_plots(folder)) plots.push_back(std::move(found));
   add_line_plot(plots, folder);
   return plots;
 }

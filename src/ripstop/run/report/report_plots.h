@@ -18,6 +18,9 @@ std::vector<ReportPlot> iteration_plots(const CsvTable& rows);
 /// Of the rows of history.csv, history_low_pass.csv and balance.csv, which may have none.
 std::vector<ReportPlot> opening_plots(const ReportRun& run, const CsvTable& history, const CsvTable& smooth,
                                       const CsvTable& balance);
+/// Of canopies.csv, a curve for each canopy of a cluster: spread angles, riser loads, areas of the mouths. None without
+/// this table.
+std::vector<ReportPlot> canopy_plots(const std::filesystem::path& folder);
 /// Those whose tables are there. Throws Error(bad_data) for a table without its columns.
 std::vector<ReportPlot> plots_of(const ReportRun& run, const std::filesystem::path& folder);
 

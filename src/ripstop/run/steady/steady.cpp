@@ -10,6 +10,7 @@
 
 #include "ripstop/canopy/mirror.h"
 #include "ripstop/case/assemble.h"
+#include "ripstop/case/cluster.h"
 #include "ripstop/case/cost.h"
 #include "ripstop/case/resolve.h"
 #include "ripstop/core/error.h"
@@ -43,6 +44,7 @@ void take_quality(SteadyResult& r, const Settings& resolved, bool own_mesh) {
     values.push_back({"canopy_asymmetry", *r.domain->asymmetry / r.size.projected_diameter});
   Judgement judgement = judge(values);
   if (r.cluster) judgement.add(cluster_warnings(*r.cluster));
+  judgement.add(unused_delays(resolved.written(), "a steady run"));
   judgement.add(margin_warnings(r.margins));
   judgement.add(warnings_of(resolved, r.stress.strain, own_mesh));
   const bool needs_cells = resolved.coupling().load == CanopyLoad::of_flow;
