@@ -15,6 +15,7 @@
 #include "case_options.h"
 #include "commands.h"
 #include "progress.h"
+#include "ripstop/case/cluster.h"
 #include "ripstop/core/error.h"
 #include "ripstop/run/json.h"
 
@@ -75,10 +76,17 @@ void print(const Settings& resolved, const CaseSummary& s, std::size_t warnings)
   if (const auto& cluster = resolved.written().cluster)
     row("cluster",
         fmt::format(
-            "{} canopies at {:g} deg to its axis{}; area, mass, mesh, stable step and reefing are of one "
-            "canopy; flow domain, memory and time are of the cluster",
+            "{} canopies at {:g} deg to its axis{}{}; area, mass, mesh, stable step and reefing are of one "
+            "{}; flow domain, memory and time are of the cluster",
             cluster->canopies, cluster->spread_angle_deg,
-            cluster->equilibrium ? ", the first angle of the search for the equilibrium" : ""));
+            cluster->size_ratios.empty()
+                ? std::string()
+                : fmt::format(" in the sizes {:g}", fmt::join(cluster->size_ratios, ", ")),
+            cluster->equilibrium ? ", the first angle of the search for the equilibrium" : "",
+            equal_canopies(resolved.written()) ? "canopy" : "canopy of size 1"));
+  if (const auto& cluster = resolved.written().cluster; cluster && !cluster->delays_s.empty())
+    row("", fmt::format("canopies open after {:g} s in a coupled inflation; other runs do not use the delays",
+                        fmt::join(cluster->delays_s, ", ")));
   row("stable step", fmt::format("{:.3g} s, limited by {}; the estimate of [NFM] is {:.3g} s",
                                  s.step.stable_step, s.step.part, s.step.printed_step));
   row("flow domain",

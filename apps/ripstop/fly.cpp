@@ -53,7 +53,9 @@ void print_canopies(const FlightCluster& cluster) {
                   m.mean_spread, m.spread_deviation, cluster.first_spread));
   for (std::size_t k = 0; k < m.canopies.size(); ++k) {
     const CanopyMotion& canopy = m.canopies[k];
-    row(fmt::format("canopy {}", k + 1).c_str(),
+    row(fmt::format("canopy {}{}", k + 1,
+                    canopy.size_ratio ? fmt::format(", size {:g}", *canopy.size_ratio) : "")
+            .c_str(),
         fmt::format(
             "spread angle {:.1f} deg, standard deviation {:.1f} deg; riser load {:.1f} N in the mean, "
             "largest {:.1f} N at {:.2f} s",

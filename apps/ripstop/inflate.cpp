@@ -193,7 +193,9 @@ void print_openings(const ClusterOpening& cluster) {
   const auto row = print_row;
   for (std::size_t k = 0; k < cluster.canopies.size(); ++k) {
     const CanopyOpening& canopy = cluster.canopies[k];
-    row(fmt::format("canopy {}", k + 1).c_str(),
+    row(fmt::format("canopy {}{}", k + 1,
+                    canopy.size_ratio ? fmt::format(", size {:g}", *canopy.size_ratio) : "")
+            .c_str(),
         fmt::format(
             "{}peak riser load {:.1f} N at {:.1f} ms, {}; at the end {:.1f} N, spread angle {:.1f} deg",
             canopy.delay ? fmt::format("folded until {:.1f} ms; ", 1000 * *canopy.delay) : "",

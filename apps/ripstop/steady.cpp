@@ -67,12 +67,15 @@ void print_unsteady(const UnsteadyResult& unsteady) {
 
 void print_cluster(const ClusterResult& cluster, double area) {
   const std::size_t count = cluster.canopies.size();
+  const bool equal = !cluster.canopies.front().size_ratio;
   print_row("cluster",
-            fmt::format("{} canopies at {:.4g} deg to the axis, S0 = {:.4f} m2 each; smallest gap {:.3g} m",
-                        count, cluster.spread_angle_deg, area / double(count), cluster.gap));
-  print_row("", fmt::format("forces inclined {} by {:.2g} deg; riser loads differ by {:.2g} %",
-                            cluster.force_angle_deg > 0 ? "outward" : "inward",
-                            std::abs(cluster.force_angle_deg), 100 * cluster.difference));
+            fmt::format("{} canopies at {:.4g} deg to the axis, S0 = {:.4f} m2 {}; smallest gap {:.3g} m",
+                        count, cluster.spread_angle_deg, equal ? area / double(count) : area,
+                        equal ? "each" : "together", cluster.gap));
+  print_row("",
+            fmt::format("forces inclined {} by {:.2g} deg; riser loads{} differ by {:.2g} %",
+                        cluster.force_angle_deg > 0 ? "outward" : "inward", std::abs(cluster.force_angle_deg),
+                        equal ? "" : " on an equal area", 100 * cluster.difference));
   if (cluster.search && in_equilibrium(cluster))
     print_row("", fmt::format("equilibrium of the spread angle, found with {} steady solutions",
                               cluster.search->size()));
@@ -82,17 +85,19 @@ void print_cluster(const ClusterResult& cluster, double area) {
   for (std::size_t k = 0; k < count; ++k) {
     const ClusterCanopy& canopy = cluster.canopies[k];
     print_row(fmt::format("canopy {}", k + 1).c_str(),
-              fmt::format("riser load {:.1f} N, largest line load {:.2f} N, projected diameter {:.3f} m",
-                          canopy.force, canopy.max_line_tension, canopy.projected_diameter));
+              (equal ? std::string() : fmt::format("size {:g}: ", *canopy.size_ratio)) +
+                  fmt::format("riser load {:.1f} N, largest line load {:.2f} N, projected diameter {:.3f} m",
+                              canopy.force, canopy.max_line_tension, canopy.projected_diameter));
   }
 }
 
 /// The members of the canopies that remain.
 void print_failure(const ClusterResult& cluster) {
-  const auto count = double(cluster.canopies.size());
+  double area = 0;  // over that of the largest canopy
+  for (const ClusterCanopy& canopy : cluster.canopies) area += std::pow(canopy.size_ratio.value_or(1), 2);
   const Margin* least = weakest(cluster.one_failed);
-  print_row("one canopy failed",
-            fmt::format("{} times the load of each of the others{}", rounded(count / (count - 1)),
+  print_row(cluster.canopies.front().size_ratio ? "largest canopy failed" : "one canopy failed",
+            fmt::format("{} times the load of each of the others{}", rounded(area / (area - 1)),
                         least ? fmt::format("; weakest member {}: margin of safety {}", least->member,
                                             margin_text(*least->margin))
                               : std::string()));

@@ -222,6 +222,7 @@ ClusterMotion.contact_gap_m: distance of nodes below which canopies count as tou
 ClusterMotion.first_contact_s: time of the first contact of two canopies; None: no contact
 ClusterMotion.contact_time_share: share of the time with contact
 ClusterMotion.canopies: motion of each canopy
+CanopyMotion.size_ratio: size of the canopy over the largest one; None: all are equal
 CanopyMotion.mean_spread_angle_deg: mean angle between canopy and axis of the cluster, seen from the payload
 CanopyMotion.spread_angle_standard_deviation_deg: standard deviation of this angle over time
 CanopyMotion.mean_riser_load_n: mean riser load
@@ -264,10 +265,12 @@ Inflation.deployment: deployment before the opening; None: without one
 Inflation.speed_at_end_m_s: speed of the payload at the end; None: fixed end
 Inflation.path_angle_at_end_deg: angle of the path of the payload below the horizon at the end
 Inflation.cluster: openings of the canopies of a cluster; None: a single canopy
+CanopyOpening.size_ratio: size of the canopy over the largest one; None: all are equal
+CanopyOpening.delay_s: time until which the canopy stays folded; None: no canopy is delayed
 CanopyOpening.peak_riser_load_n: peak riser load after the start-up, at the ends of blocks of steps
 CanopyOpening.peak_riser_load_time_s: time of this peak since deployment
 CanopyOpening.last_riser_load_n: riser load at the end, mean over the last fifth
-CanopyOpening.filling_time_s: time at which the mouth first has its mean area of the last fifth; None: not filled
+CanopyOpening.filling_time_s: time at which the mouth first has the mean area of the full canopy; None: not filled
 CanopyOpening.last_spread_angle_deg: spread angle at the end
 ClusterOpening.canopies: opening of each canopy
 ClusterOpening.peak_time_difference_s: largest difference between the times of the peaks
@@ -358,6 +361,7 @@ BodyResult.moment_n_m: moment about the centre of the aft end (x, y, z)
 BodyResult.reference_area_m2: reference area of the body
 BodyResult.drag_coefficient: drag coefficient on the reference area of the body
 BodyResult.drag_standard_error_n: standard error of the drag, the mean of an unsteady flow; None: steady flow
+ClusterCanopy.size_ratio: size of the canopy over the largest one; None: all are equal
 ClusterCanopy.azimuth_deg: azimuth about the axis of the cluster, from x
 ClusterCanopy.drag_n: force along the stream
 ClusterCanopy.riser_load_n: magnitude of the air load, which the riser carries
@@ -365,7 +369,7 @@ ClusterCanopy.spreading_moment_n_m: moment about the confluence, positive where 
 ClusterResult.spread_angle_deg: angle between the axes of the canopies and of the cluster
 ClusterResult.force_angle_deg: mean angle between the force and the axis of a canopy, positive outward
 ClusterResult.gap_m: smallest distance between the cloth of two canopies
-ClusterResult.riser_load_difference: difference between the largest and smallest riser load over their mean
+ClusterResult.riser_load_difference: difference between the largest and smallest riser load on an equal area over their mean
 ClusterResult.cluster_factor: drag coefficient over that of one canopy; None: not given
 ClusterResult.spread_search: solutions of the search for the equilibrium, the last one is the result; None: given angle
 SpreadTrial.spread_angle_deg: angle between the axes of the canopies and of the cluster
@@ -373,7 +377,7 @@ SpreadTrial.force_angle_deg: mean angle between the force and the axis of a cano
 SpreadTrial.force_angle_deviation_deg: standard deviation of that angle over the coupling iterations
 SpreadTrial.drag_n: drag of the cluster
 ClusterResult.canopies: loads on each canopy
-ClusterResult.margins_one_failed: margins of the remaining canopies when one fails
+ClusterResult.margins_one_failed: margins of the remaining canopies when the largest one fails
 HeldPayload.mass_kg: mass of the payload
 HeldPayload.weight_n: weight of payload and parachute
 HeldPayload.payload_drag_n: drag of the payload

@@ -104,6 +104,14 @@ TEST(ClusterCase, ImpossibleOnesAreRefusedWithTheirKey) {
             "cluster.equilibrium");
   EXPECT_EQ(key_of([](Case& c) { c.cluster->widest_spread_angle_deg = 19; }),
             "cluster.widest_spread_angle_deg");
+  EXPECT_EQ(key_of([](Case& c) { c.cluster->size_ratios = {1, 0.8}; }), "cluster.size_ratios");
+  EXPECT_EQ(key_of([](Case& c) { c.cluster->size_ratios = {0.9, 0.8, 0.7}; }), "cluster.size_ratios");
+  EXPECT_EQ(key_of([](Case& c) { c.cluster->size_ratios = {1, 0.8, 1.2}; }), "cluster.size_ratios[2]");
+  EXPECT_EQ(key_of([](Case& c) {
+              c.cluster->size_ratios = {1, 0.8, 0.8}, c.cluster->equilibrium = true,
+              c.cluster->spread_angle_deg = 25;
+            }),
+            "cluster.equilibrium");
   EXPECT_EQ(key_of([](Case& c) { c.cluster->delays_s = {0, 0.1}; }), "cluster.delays_s");
   EXPECT_EQ(key_of([](Case& c) { c.cluster->delays_s = {0, 0.1, -0.1}; }), "cluster.delays_s[2]");
   EXPECT_EQ(key_of([](Case& c) { c.bodies["box"].shape = BoxKeys{{0.1, 0.1, 0.1}}; }), "body.box");
@@ -119,6 +127,35 @@ TEST(ClusterCase, CanopiesThatTouchAreRefusedWithTheAngleAndTheRiserThatSeparate
   EXPECT_TRUE(validate(given).empty());
   EXPECT_NE(problems.front().message.find("lengthen the riser ("), std::string::npos)
       << problems.front().message;
+}
+
+TEST(ClusterCase, CanopiesOfOtherSizesHaveTheirOwnAreaMassAndCells) {
+  Case given = cluster_case(2, 20);
+  given.payload.mass_kg = 5;
+  const Settings equal = resolve(checked(given));
+  given.cluster->size_ratios = {1, 0.6};
+  const Settings sizes = resolve(checked(given));
+  EXPECT_EQ(sizes.flow().box_m, equal.flow().box_m) << "the domain is that of the larger canopy";
+  const double area = nominal_area(sizes.parachute());
+  EXPECT_NEAR(steady_problem(sizes).reference_area, 1.36 * area, 1e-12);
+  EXPECT_EQ(steady_problem(sizes).full_box_because, "the canopies of the cluster have different sizes");
+  EXPECT_NEAR(cells_across(sizes), 0.6 * cells_across(equal), 1e-12);
+  const Settings small = canopy_settings(sizes, 1);
+  EXPECT_NEAR(nominal_area(small.parachute()), 0.36 * area, 1e-12);
+  EXPECT_NEAR(mass_of_canopies(sizes), parachute_mass(canopy_settings(sizes, 0)) + parachute_mass(small),
+              1e-12);
+  EXPECT_NEAR(mass_of_canopies(equal), 2 * parachute_mass(equal), 1e-12);
+  // The mass of the flying mesh is that of both parachutes, with hems and allowances.
+  const CanopyMesh mesh = cluster_as_cut(sizes).mesh();
+  double mass = 0;
+  for (const double node : mesh.mass) mass += node;
+  EXPECT_NEAR(mass, mass_of_canopies(sizes), 1e-9);
+  EXPECT_NEAR(load_after_failure(given), 1.36 / 0.36, 1e-12);
+  EXPECT_NEAR(load_after_failure(equal.written()), 2, 1e-12);
+  given.flow.symmetry = FlowSymmetry::quarter;
+  EXPECT_NE(refusal_of([&] { steady_problem(resolve(checked(given))); }, ExitCode::usage)
+                .find("because the canopies of the cluster have different sizes"),
+            std::string::npos);
 }
 
 TEST(ClusterCase, DelaysThatARunDoesNotUseAreReported) {

@@ -114,6 +114,35 @@ TEST(ClusterFlight, ACanopyThatCollapsesEndsTheFlightWithItsNumber) {
   EXPECT_EQ(flight.failure(state, row), "canopy 2 of the cluster collapsed at 0.2 s");
 }
 
+/// The mesh about its fixed node in another size.
+CanopyMesh in_size(CanopyMesh mesh, double ratio) {
+  const Vec3 end = mesh.start[mesh.fixed[0]];
+  for (Vec3& p : mesh.start) p = end + ratio * (p - end);
+  for (double& m : mesh.mass) m *= ratio * ratio;
+  for (Spring& spring : mesh.springs) spring.rest_length *= ratio;
+  for (Patch& patch : mesh.patches) {
+    for (double& area : patch.cell_area) area *= ratio * ratio;
+    for (int d = 0; d < direction_count; ++d) {
+      for (double& length : patch.rest_length[d]) length *= ratio;
+      for (double& width : patch.width[d]) width *= ratio;
+    }
+  }
+  return mesh;
+}
+
+TEST(ClusterFlight, ASmallCanopyIsNotACollapsedOne) {
+  FlightProblem pair = pair_of_plates(6, 2 * payload);
+  const std::vector<CanopyMesh> sizes{plate(long_struts), in_size(plate(long_struts), 0.3)};
+  pair.mesh = join_risers(Cluster(sizes, {2, spread}).mesh()).mesh, pair.shape = pair.mesh.start;
+  pair.air.flow.grid = {{-3, -1.5, -10}, {6, 3, 13.2}, 48, 24, 96};
+  FreeFlight flight(std::move(pair));
+  FreeFlightState state = flight.start();
+  flight.advance(state);
+  EXPECT_LT(state.collapsed_since, 0) << "its mouth has 0.08 of the area of both, which is that of its size";
+  const std::vector<CanopyRow> rows = flight.canopy_rows(state);
+  EXPECT_NEAR(rows[1].mouth_area / rows[0].mouth_area, 0.09, 1e-3);
+}
+
 TEST(ClusterMotion, SmallestDistanceIsThatOfAllPairs) {
   std::vector<Vec3> a, b;
   for (int i = 0; i < 60; ++i) {

@@ -18,7 +18,10 @@ TEST(ClusterEquilibrium, KeepsTheAngleByARestraintThatBalancesTheLineLoad) {
   given.cluster = ClusterKeys{2, 30, false, {}};
   const Cluster cluster = cluster_of(resolve(checked(given))).value();
   const CanopyMesh mesh = cluster.mesh();
-  const ClothPtr one = make_cloth(cluster.one()), all = make_cloth(mesh);
+  std::vector<ClothPtr> each;
+  each.push_back(make_cloth(cluster.one()));
+  const Cloth* one = each.front().get();
+  const ClothPtr all = make_cloth(mesh);
   // A pressure, and a force on every node away from the axis of the cluster.
   Loads loads;
   loads.cell_pressure.assign(cells_of(mesh).size(), 50);
@@ -28,7 +31,7 @@ TEST(ClusterEquilibrium, KeepsTheAngleByARestraintThatBalancesTheLineLoad) {
   ThreadTeam team(1);
   EquilibriumOptions options;
   options.shape_is_loaded = false;
-  const Equilibrium found = find_equilibrium(cluster, *one, *all, mesh.start, loads, options, team);
+  const Equilibrium found = find_equilibrium(cluster, each, *all, mesh.start, loads, options, team);
   ASSERT_TRUE(found.converged);
   ASSERT_EQ(found.restraint.size(), mesh.start.size());
   const std::vector<Vec3> shape = positions(found.cloth, *all);

@@ -11,16 +11,18 @@
 #include "../small_case.h"
 #include "ripstop/canopy/mirror.h"
 #include "ripstop/case/assemble.h"
+#include "ripstop/parachute/scale.h"
 
 namespace ripstop {
 namespace {
 
 constexpr double one_degree = std::numbers::pi / 180;
 
-CanopyMesh small_canopy() {
+CanopyMesh small_canopy(double ratio = 1) {
   Case given = flat_circular_case(1, 500, 20);
   given.parachute.riser.length_m = 1;
   given.parachute.mesh.line_segment_m = 0.25;
+  given.parachute = in_size(given.parachute, ratio);
   return parachute_mesh(resolve(checked(given)));
 }
 
@@ -88,7 +90,7 @@ TEST(Cluster, ACanopyThatTurnedAboutTheConfluenceIsTurnedBack) {
     const double c = std::cos(0.1), s = std::sin(0.1);
     p = end + Vec3{c * r.x + s * r.z, r.y, c * r.z - s * r.x};
   }
-  const std::vector<Vec3> back = cluster.upright(turned);
+  const std::vector<Vec3> back = cluster.upright(1, turned);
   for (std::size_t n = 0; n < back.size(); ++n) EXPECT_LT(norm(back[n] - start[n]), 1e-9);
 }
 
@@ -137,6 +139,56 @@ TEST(Cluster, JoinedAtTheRisersHasOneFixedNodeWithTheMassOfAll) {
     EXPECT_EQ(cluster.joined(moved)[mesh.fixed[0]].z, mesh.start[mesh.fixed[0]].z + 1);
     EXPECT_EQ(mesh.patches.back().piece, 2);
   }
+}
+
+TEST(Cluster, OfTwoSizesHasEachMeshOnARiserToTheSameConfluence) {
+  constexpr double ratio = 0.6, tilt = 25 * one_degree;
+  const std::vector<CanopyMesh> meshes{small_canopy(ratio), small_canopy()};
+  const Cluster cluster(meshes, {2, tilt});
+  const CanopyMesh all = cluster.mesh();
+  EXPECT_FALSE(cluster.equal());
+  for (const int node : all.fixed) EXPECT_LT(norm(all.start[node] - cluster.confluence()), 1e-12);
+  const std::size_t springs = meshes[0].springs.size();
+  for (std::size_t s = 0; s < all.springs.size(); ++s) {
+    const Spring &spring = all.springs[s], &own = meshes[s / springs].springs[s % springs];
+    const std::vector<Vec3>& x = meshes[s / springs].start;
+    EXPECT_NEAR(norm(all.start[spring.b] - all.start[spring.a]), norm(x[own.b] - x[own.a]), 1e-12);
+    EXPECT_EQ(spring.rest_length, own.rest_length);
+    EXPECT_EQ(all.laws[spring.law].coefficients, meshes[s / springs].laws[own.law].coefficients);
+  }
+  // The skirt of the larger one has the height of its own mesh, the other one is nearer to the confluence.
+  const auto arm = [&](int k) {
+    const std::vector<int> skirt = of_canopy(all.rigging.skirt_nodes, k, 2);
+    Vec3 centre;
+    for (const int node : skirt) centre += all.start[node] / double(skirt.size());
+    return centre - cluster.confluence();
+  };
+  EXPECT_NEAR(arm(1).z + cluster.confluence().z, skirt_centroid(meshes[1], meshes[1].start).z, 1e-9);
+  EXPECT_NEAR(norm(arm(0)) / norm(arm(1)), ratio, 1e-9);
+  for (int k = 0; k < 2; ++k) {
+    EXPECT_NEAR(std::acos(arm(k).z / norm(arm(k))), tilt, 1e-9);
+    const std::vector<Vec3> own = cluster.own(k, all.start), back = cluster.upright(k, own);
+    for (std::size_t n = 0; n < own.size(); ++n) {
+      EXPECT_LT(norm(own[n] - meshes[static_cast<std::size_t>(k)].start[n]), 1e-9);
+      EXPECT_LT(norm(back[n] - own[n]), 1e-9);
+    }
+  }
+  // Laid over each other they coincide.
+  const std::vector<Vec3> overlaid = cluster.overlaid(all.start), first = of_canopy(overlaid, 0, 2),
+                          second = of_canopy(overlaid, 1, 2);
+  for (std::size_t n = 0; n < first.size(); ++n) EXPECT_LT(norm(first[n] - second[n]), 1e-9);
+  EXPECT_FALSE(mirror_images(all)) << "the plane x = 0 is no plane of symmetry";
+}
+
+TEST(Cluster, RefusesMeshesOfOtherTopology) {
+  Case other = flat_circular_case(1, 900, 20);
+  other.parachute.riser.length_m = 1;
+  const std::string text = refusal_of(
+      [&] {
+        Cluster(std::vector<CanopyMesh>{small_canopy(), parachute_mesh(resolve(checked(other)))}, {2, 0.3});
+      },
+      ExitCode::usage);
+  EXPECT_NE(text.find("differ in more than their size"), std::string::npos) << text;
 }
 
 TEST(Cluster, RefusesACanopyThatIsHeldAtSeveralPoints) {

@@ -33,6 +33,18 @@ CanopyMesh mesh_of(const std::optional<Cluster>& cluster, const Settings& resolv
 
 }  // namespace
 
+namespace {
+
+/// The settings of each canopy of a cluster; those of one if they are equal.
+std::vector<Settings> settings_of_canopies(const Settings& resolved) {
+  if (equal_canopies(resolved.written())) return {resolved};
+  std::vector<Settings> each;
+  for (int k = 0; k < canopy_count(resolved.written()); ++k) each.push_back(canopy_settings(resolved, k));
+  return each;
+}
+
+}  // namespace
+
 CanopyMesh parachute_mesh(const Settings& resolved, const CanopyMesh* own) {
   return own ? in_flow(*own, resolved) : parachute_mesh(resolved.parachute(), resolved);
 }
@@ -55,7 +67,16 @@ CanopyMesh parachute_mesh(const Design& design, const Settings& resolved) {
 std::optional<Cluster> cluster_of(const Settings& resolved) {
   const std::optional<ClusterKeys>& keys = resolved.written().cluster;
   if (!keys) return {};
-  return Cluster(parachute_mesh(resolved), layout_of(*keys));
+  std::vector<CanopyMesh> canopies;
+  for (const Settings& canopy : settings_of_canopies(resolved)) canopies.push_back(parachute_mesh(canopy));
+  return Cluster(std::move(canopies), layout_of(*keys));
+}
+
+Cluster cluster_as_cut(const Settings& resolved) {
+  std::vector<CanopyMesh> canopies;
+  for (const Settings& canopy : settings_of_canopies(resolved))
+    canopies.push_back(mesh_as_cut(parachute_mesh(canopy), canopy));
+  return Cluster(std::move(canopies), layout_of(*resolved.written().cluster));
 }
 
 CanopyMesh steady_mesh(const Settings& resolved, const CanopyMesh* own) {
@@ -119,6 +140,7 @@ std::string why_full_box(const Settings& resolved, const CanopyMesh& mesh, const
   if (flow.unsteady) return "the flow is unsteady";
   if (flow.mesh == FlowMesh::fitted) return "the cells are fitted to the cloth";
   if (!resolved.written().bodies.empty()) return "there are rigid bodies in the flow";
+  if (!equal_canopies(resolved.written())) return "the canopies of the cluster have different sizes";
   // Rounding decides whether cloth touches a cell, and the published values are those of the full box.
   if (flow.porosity_model == PorosityModel::paper && flow.symmetry == FlowSymmetry::automatic)
     return "the \"paper\" model is compared with the full domain of its source";
@@ -150,7 +172,7 @@ SteadyProblem steady_problem(const Settings& resolved, const CanopyMesh* own) {
                         {}};
   problem.own_mesh = own != nullptr;
   problem.cluster = std::move(cluster);
-  problem.reference_area *= canopy_count(resolved.written());
+  problem.reference_area *= area_ratio(resolved.written());
   if (const FlowSettings& flow = resolved.flow(); flow.unsteady) {
     const WatchKeys& keys = flow.watch;
     problem.averaging_window = {keys.courant, keys.standard_error, keys.shortest, keys.longest,

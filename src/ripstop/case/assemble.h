@@ -19,6 +19,8 @@ CanopyMesh parachute_mesh(const Settings& resolved, const CanopyMesh* own = null
 CanopyMesh parachute_mesh(const Design& design, const Settings& resolved);
 /// The canopies of a cluster; absent for a single one.
 std::optional<Cluster> cluster_of(const Settings& resolved);
+/// Each canopy of a cluster with its mesh_as_cut().
+Cluster cluster_as_cut(const Settings& resolved);
 /// The mesh of a steady run: of all canopies. Otherwise parachute_mesh().
 CanopyMesh steady_mesh(const Settings& resolved, const CanopyMesh* own = nullptr);
 /// The mesh of a flight: of all canopies, whose risers end at one node.

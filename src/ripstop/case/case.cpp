@@ -57,7 +57,7 @@ void describe(Fields& fields, Case& given) {
   fields.named_tables("body", given.bodies,
                       "Rigid bodies upstream of the canopy, such as the rocket or the capsule: [body.NAME].");
   fields.table("cluster", given.cluster,
-               "Cluster of equal canopies in place of one, only for `ripstop steady`, `sweep`, `fly` and "
+               "Cluster of canopies in place of one, only for `ripstop steady`, `sweep`, `fly` and "
                "coupled `inflate`; experimental.");
   fields.table("coupling", given.coupling, "Steady coupling of cloth and flow.");
   fields.table("inflation", given.inflation, "The opening of the folded canopy.");

@@ -13,6 +13,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/core/toml/fields.h"
 #include "ripstop/core/toml/problem.h"
+#include "ripstop/parachute/scale.h"
 
 namespace ripstop::inline cases {
 namespace {
@@ -23,7 +24,37 @@ constexpr double widest_part = 0.25;
 // Inflated over the inflated diameter of the domain, which is a generous one: canopies closer than this do touch.
 constexpr double narrow = 0.9;
 
-/// Sine of the spread angle at which neighbouring canopies touch, about; above 1 where they do at every angle.
+constexpr double smallest_ratio = 0.2;  // of canopies in one flow: a smaller one has too few of its cells
+
+/// The list has a value for each canopy, or none.
+void check_count(const ClusterKeys& keys, const std::vector<double>& values, const char* key,
+                 const char* each, Findings& findings) {
+  if (values.empty() || std::ssize(values) == keys.canopies) return;
+  findings.add(
+      fmt::format("cluster.{}", key), fmt::format("[{:g}]", fmt::join(values, ", ")),
+      fmt::format("{} values", keys.canopies),
+      fmt::format("has {} values for cluster.canopies = {}; give {}", values.size(), keys.canopies, each));
+}
+
+void check_sizes(const Case& given, Findings& findings) {
+  const ClusterKeys& keys = *given.cluster;
+  check_count(keys, keys.size_ratios, "size_ratios", "the size of each canopy, 1 for the largest", findings);
+  if (equal_canopies(given) || !findings.sound({"cluster.size_ratios"})) return;
+  if (const double largest = std::ranges::max(keys.size_ratios); largest < 1)
+    findings.add(
+        "cluster.size_ratios", fmt::format("[{:g}]", fmt::join(keys.size_ratios, ", ")),
+        "a largest value of 1",
+        fmt::format("the largest value is {:g}; describe the largest canopy in [parachute] and give the "
+                    "other ones over it",
+                    largest));
+  if (keys.equilibrium)
+    findings.add("cluster.equilibrium", "true", "false",
+                 "canopies of different size have no common spread angle of equilibrium; remove "
+                 "cluster.size_ratios, or compute a flight (ripstop fly)");
+}
+
+/// Sine of the spread angle at which neighbouring canopies touch, about; above 1 where they do at every angle. The arm
+/// of a smaller canopy is so much shorter that it touches at the same angle.
 double touching_sine(const Case& given) {
   const double radius = 0.5 * inflated_diameter(given.parachute);
   return narrow * radius / (cluster_arm(given) * std::sin(std::numbers::pi / given.cluster->canopies));
@@ -33,9 +64,10 @@ double touching_sine(const Case& given) {
 
 void describe(Fields& fields, ClusterKeys& keys) {
   fields
-      .integer("canopies", keys.canopies, from(fewest_in_cluster).up_to(most_in_cluster),
-               "Number of canopies, all of them as in [parachute], each on its own riser "
-               "(parachute.riser.length_m) to the common confluence.")
+      .integer(
+          "canopies", keys.canopies, from(fewest_in_cluster).up_to(most_in_cluster),
+          "Number of canopies, all of them as in [parachute] or smaller (size_ratios), each on its own riser "
+          "(parachute.riser.length_m) to the common confluence.")
       .required();
   fields
       .number("spread_angle_deg", keys.spread_angle_deg, above(0).up_to(widest_spread),
@@ -65,6 +97,11 @@ void describe(Fields& fields, ClusterKeys& keys) {
               "flow domain is made.")
       .absent("the larger of `45` and spread_angle_deg + 15, at most `60`");
   fields.numbers(
+      "size_ratios", keys.size_ratios, 0, most_in_cluster, from(smallest_ratio).up_to(1),
+      "Sizes of the canopies over that of [parachute], one value for each canopy: factor of every "
+      "length of canopy, lines and riser. [parachute] is the largest canopy, so that one value is 1. "
+      "Empty: all canopies are as in [parachute].");
+  fields.numbers(
       "delays_s", keys.delays_s, 0, most_in_cluster, from(0).up_to(1000),
       "Times from the start of a coupled inflation until which each canopy stays folded, one value "
       "for each canopy. A folded canopy moves along its own axis only. Empty: all canopies open at "
@@ -82,6 +119,36 @@ ClusterLayout widest_layout(const ClusterKeys& keys) {
 
 int canopy_count(const Case& given) {
   return given.cluster ? given.cluster->canopies : 1;
+}
+
+bool equal_canopies(const Case& given) {
+  return !given.cluster || std::ranges::all_of(given.cluster->size_ratios, [](double r) { return r == 1; });
+}
+
+double size_ratio(const Case& given, int k) {
+  if (equal_canopies(given) || k >= std::ssize(given.cluster->size_ratios)) return 1;
+  return given.cluster->size_ratios[static_cast<std::size_t>(k)];
+}
+
+double smallest_size_ratio(const Case& given) {
+  return equal_canopies(given) ? 1 : std::ranges::min(given.cluster->size_ratios);
+}
+
+double area_ratio(const Case& given) {
+  double sum = 0;
+  for (int k = 0; k < canopy_count(given); ++k) sum += size_ratio(given, k) * size_ratio(given, k);
+  return sum;
+}
+
+double load_after_failure(const Case& given) {
+  return area_ratio(given) / (area_ratio(given) - 1);
+}
+
+Settings canopy_settings(const Settings& resolved, int k) {
+  Case one = resolved.written();
+  one.parachute = in_size(one.parachute, size_ratio(one, k));
+  one.cluster.reset();
+  return resolve(one);
 }
 
 double cluster_arm(const Case& given) {
@@ -119,14 +186,9 @@ void check_cluster(const Case& given, const FlowSettings& flow, Findings& findin
     findings.add("cluster.widest_spread_angle_deg", *widest,
                  fmt::format("at least {:g}", given.cluster->spread_angle_deg),
                  "is below cluster.spread_angle_deg, the angle at the start");
-  if (const auto& delays = given.cluster->delays_s;
-      !delays.empty() && std::ssize(delays) != given.cluster->canopies)
-    findings.add(
-        "cluster.delays_s", fmt::format("[{:g}]", fmt::join(delays, ", ")),
-        fmt::format("{} values", given.cluster->canopies),
-        fmt::format("has {} values for cluster.canopies = {}; give the delay of each canopy, 0 for one "
-                    "that opens at the start",
-                    delays.size(), given.cluster->canopies));
+  check_sizes(given, findings);
+  check_count(*given.cluster, given.cluster->delays_s, "delays_s",
+              "the delay of each canopy, 0 for one that opens at the start", findings);
   const double across = start_diameter(given.parachute);
   const Vec3 room = cluster_arm(given) * widest_layout(*given.cluster).width();
   const double needed[] = {room.x + across, room.y + across}, box[] = {flow.box_m.x, flow.box_m.y},

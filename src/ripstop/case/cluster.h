@@ -1,4 +1,4 @@
-// Several equal canopies on risers to one confluence: [cluster].
+// Several canopies on risers to one confluence: [cluster].
 #pragma once
 
 #include <optional>
@@ -27,7 +27,8 @@ struct ClusterKeys {
   std::optional<double> single_drag_coefficient;               // of one canopy alone, for the cluster factor
   std::optional<double> single_descent_drag_coefficient = {};  // likewise of a flight
   std::optional<double> widest_spread_angle_deg = {};          // in flight, for the domain
-  std::vector<double> delays_s = {};  // of each canopy in a coupled inflation; empty: all open at once
+  std::vector<double> size_ratios = {};  // of each canopy over [parachute]; empty: all of them 1
+  std::vector<double> delays_s = {};     // of each canopy in a coupled inflation; empty: all open at once
 };
 void describe(Fields& fields, ClusterKeys& keys);
 
@@ -46,6 +47,17 @@ struct SpreadRange {
 SpreadRange spread_range(const Case& given);
 /// Number of canopies of the case: 1 without a cluster.
 int canopy_count(const Case& given);
+/// Whether all canopies are as in [parachute].
+bool equal_canopies(const Case& given);
+/// Of canopy `k` from 0: every length over that of [parachute], which is the largest canopy.
+double size_ratio(const Case& given, int k);
+double smallest_size_ratio(const Case& given);
+/// Nominal area of all canopies over that of [parachute]: the number of canopies if they are equal.
+double area_ratio(const Case& given);
+/// When the largest canopy of a cluster fails: load of the others over that before, in a steady descent.
+double load_after_failure(const Case& given);
+/// The settings of canopy `k` alone, in its size.
+Settings canopy_settings(const Settings& resolved, int k);
 
 /// From the confluence to the middle of a canopy, about [m].
 double cluster_arm(const Case& given);

@@ -91,7 +91,7 @@ void refuse_other_payload(const Case& given, const Case& opening) {
 
 /// At which the usual drag of the family carries the payload [m/s].
 double usual_rate(const Settings& flight) {
-  const double area = canopy_count(flight.written()) * usual_drag_coefficient(flight.parachute()) *
+  const double area = area_ratio(flight.written()) * usual_drag_coefficient(flight.parachute()) *
                           nominal_area(flight.parachute()) +
                       flight.payload().drag_area_m2;
   return terminal_speed(*flight.payload().mass_kg + mass_of_canopies(flight), area,
@@ -184,8 +184,8 @@ FlightProblem flight_problem(const Settings& flight, std::vector<Vec3> shape, st
   FlightProblem problem = problem_at(flight, flight.flow().speed_m_s, threads);
   problem.mesh = mesh_as_cut(std::move(problem.mesh), flight);
   problem.shape = std::move(shape), problem.pressure = std::move(pressure);
-  if (const auto& keys = flight.written().cluster) {
-    JoinedCluster joined = join_risers(Cluster(std::move(problem.mesh), layout_of(*keys)).mesh());
+  if (flight.written().cluster) {
+    JoinedCluster joined = join_risers(cluster_as_cut(flight).mesh());
     problem.shape = joined.joined(problem.shape);
     problem.mesh = std::move(joined.mesh);
   }

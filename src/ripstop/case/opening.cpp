@@ -204,6 +204,17 @@ void check_delays(const ClusterKeys& keys, const InflationSettings& inflation) {
                       k, keys.delays_s[k], inflation.duration_s));
 }
 
+/// Canopies of several sizes. Returns the mass beyond that of their meshes [kg].
+double take_sizes(const Settings& opening, InflationProblem& problem) {
+  double beyond = 0;
+  for (int k = 0; k < canopy_count(opening.written()); ++k) {
+    const Settings canopy = canopy_settings(opening, k);
+    problem.sizes.push_back({parachute_mesh(canopy), size_ratio(opening.written(), k)});
+    beyond += mass_beyond(problem.sizes.back().mesh, canopy);
+  }
+  return beyond;
+}
+
 /// Throws Error(usage) for settings that the opening of a cluster cannot have.
 void check_cluster_opening(const Settings& opening) {
   const Case& given = opening.written();
@@ -234,6 +245,8 @@ InflationProblem opening_problem(const Settings& opening, const LoadSource& sour
   if (const auto& keys = opening.written().cluster)
     problem.cluster = layout_of(*keys), problem.delays = keys->delays_s;
   problem.mesh = parachute_mesh(opening);
+  double beyond = canopy_count(opening.written()) * mass_beyond(problem.mesh, opening);
+  if (!equal_canopies(opening.written())) beyond = take_sizes(opening, problem);
   problem.settings = opening.inflation();
   if (opening.inflation().air == AirModel::coupled) {
     const Cost cost = cost_of(opening);
@@ -242,10 +255,9 @@ InflationProblem opening_problem(const Settings& opening, const LoadSource& sour
     problem.air = AirProblem{flow_problem(opening), opening.inflation().courant};
     // The inertia of hems and allowances counts at the payload, so that the cloth keeps that of its area.
     if (opening.inflation().mass == InflationSettings::Mass::payload)
-      problem.air->payload = Payload{
-          *opening.payload().mass_kg + canopy_count(opening.written()) * mass_beyond(problem.mesh, opening),
-          standard_gravity, opening.inflation().flight_angle_deg, opening.payload().drag_area_m2,
-          density_below(opening.flow().height_m)};
+      problem.air->payload =
+          Payload{*opening.payload().mass_kg + beyond, standard_gravity, opening.inflation().flight_angle_deg,
+                  opening.payload().drag_area_m2, density_below(opening.flow().height_m)};
     if (const auto deployment = deployment_of(opening)) start_from(*deployment, opening, problem);
     problem.settings.damping_n_s_m3 = problem.settings.quadratic_damping_n_s2_m4 = 0;
   } else {

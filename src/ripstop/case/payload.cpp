@@ -41,7 +41,11 @@ double parachute_mass(const Settings& resolved) {
 }
 
 double mass_of_canopies(const Settings& resolved) {
-  return canopy_count(resolved.written()) * parachute_mass(resolved);
+  if (equal_canopies(resolved.written())) return canopy_count(resolved.written()) * parachute_mass(resolved);
+  double mass = 0;
+  for (int k = 0; k < canopy_count(resolved.written()); ++k)
+    mass += parachute_mass(canopy_settings(resolved, k));
+  return mass;
 }
 
 double suspended_weight(const Settings& resolved, double payload) {
@@ -53,7 +57,7 @@ double payload_first_speed(const Case& given, double density) {
     throw Error(ExitCode::usage,
                 "the case has neither flow.speed_m_s nor payload.mass_kg; write one of them");
   const double canopies =
-      canopy_count(given) * usual_drag_coefficient(given.parachute) * nominal_area(given.parachute);
+      area_ratio(given) * usual_drag_coefficient(given.parachute) * nominal_area(given.parachute);
   return terminal_speed(*given.payload.mass_kg, canopies + given.payload.drag_area_m2, density);
 }
 

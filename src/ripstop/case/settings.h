@@ -131,7 +131,7 @@ Settings at_spread_angle(const Settings& resolved, double spread_angle_deg);
 double inflated_diameter(const Design& parachute);
 /// Cells of the flow. Throws Error(usage) for a core that does not fit, or that the cells do not suffice for.
 FlowGrid flow_grid(const FlowSettings& flow);
-/// Those across the inflated canopy.
+/// Those across the inflated canopy, of a cluster across the smallest one.
 double cells_across(const Settings& resolved);
 /// Whether the field of one flow can start the other: both are solved alike on the same cells. The position of the
 /// canopy and the averaging window may differ, and the air too if the engine can scale its field.

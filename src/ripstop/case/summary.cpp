@@ -59,7 +59,7 @@ CaseSummary summarize(const Settings& resolved) {
   const double diameter = start_diameter(resolved.parachute());
   const TunnelSettings& tunnel = resolved.flow().tunnel;
   const bool jet = tunnel.kind == TunnelKind::open_jet;
-  summary.blockage = canopy_count(resolved.written()) * std::numbers::pi / 4 * diameter * diameter /
+  summary.blockage = area_ratio(resolved.written()) * std::numbers::pi / 4 * diameter * diameter /
                      (jet ? nozzle_area(tunnel.nozzle) : grid.size.x * grid.size.y);
   summary.of_jet = jet;
   summary.air = {resolved.flow().speed_m_s, resolved.flow().density_kg_m3};

@@ -52,6 +52,7 @@ std::vector<CanopyRow> canopy_rows(const CanopyMesh& mesh, const Cloth& cloth, c
 
 /// Values of one canopy over the time after the start-up.
 struct CanopyMotion {
+  std::optional<double> size_ratio;                // over the largest canopy; absent: all are equal
   double mean_spread = 0, spread_deviation = 0;    // its standard deviation over time [deg]
   double mean_load = 0;                            // of the riser [N]
   double largest_load = 0, largest_load_time = 0;  // of the whole flight, at the ends of steps [N], [s]
@@ -59,6 +60,7 @@ struct CanopyMotion {
 };
 template <Of<CanopyMotion> T, class Visit>
 void each_member(T& c, Visit&& visit) {
+  visit("size_ratio", c.size_ratio);
   visit("mean_spread_angle_deg", c.mean_spread);
   visit("spread_angle_standard_deviation_deg", c.spread_deviation);
   visit("mean_riser_load_n", c.mean_load);
@@ -95,6 +97,7 @@ ClusterMotion summarise_cluster(const std::vector<CanopyRow>& rows, int canopies
 
 /// The opening of one canopy of a cluster.
 struct CanopyOpening {
+  std::optional<double> size_ratio;     // over the largest canopy; absent: all are equal
   std::optional<double> delay;          // until then it stays folded; absent: no canopy has one [s]
   double peak_load = 0, peak_time = 0;  // of the riser, of all rows after the start-up [N], [s]
   double last_load = 0;                 // mean over the last fifth [N]
@@ -103,6 +106,7 @@ struct CanopyOpening {
 };
 template <Of<CanopyOpening> T, class Visit>
 void each_member(T& c, Visit&& visit) {
+  visit("size_ratio", c.size_ratio);
   visit("delay_s", c.delay);
   visit("peak_riser_load_n", c.peak_load);
   visit("peak_riser_load_time_s", c.peak_time);

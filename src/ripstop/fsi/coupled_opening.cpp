@@ -24,8 +24,16 @@ constexpr int added_masses = 25;  // in an opening
 /// A canopy narrower than so many cells would not part the air of any two.
 constexpr double least_cells_across = 2;
 
-void check_width(const FoldedStart& folded, const FlowGrid& grid) {
-  const double width = folded.inner_radius + folded.outer_radius;
+/// Of a cluster the smallest canopy counts.
+double smallest_ratio(const std::vector<SizedCanopy>& sizes) {
+  double smallest = 1;
+  for (const SizedCanopy& canopy : sizes) smallest = std::min(smallest, canopy.ratio);
+  return smallest;
+}
+
+/// `smallest`: size of the smallest canopy over that of `folded`.
+void check_width(const FoldedStart& folded, double smallest, const FlowGrid& grid) {
+  const double width = smallest * (folded.inner_radius + folded.outer_radius);
   const Vec3 cell = grid.spacing({0, 0, 0.5 * grid.size.z + grid.origin.z});
   const double across = std::max(cell.x, cell.y);
   if (width >= least_cells_across * across) return;
@@ -39,8 +47,8 @@ void check_width(const FoldedStart& folded, const FlowGrid& grid) {
           "least {:.3g} m. Such cells are about {} x {} x {}, with {:.2g} times the memory and {:.2g} times "
           "the time of this grid",
           width, rounded_apart(width / across, least_cells_across, 2).first, across, least_cells_across,
-          width / least_cells_across, 0.5 * least_cells_across * across, cells(grid.nx), cells(grid.ny),
-          cells(grid.nz), std::pow(finer, 3), std::pow(finer, 4)),
+          width / least_cells_across, 0.5 * least_cells_across * across / smallest, cells(grid.nx),
+          cells(grid.ny), cells(grid.nz), std::pow(finer, 3), std::pow(finer, 4)),
       {"flow grid", "radius of the folded skirt"});
 }
 
@@ -76,7 +84,7 @@ CoupledOpening::CoupledOpening(InflationProblem problem)
     : Opening(problem, problem.settings.duration_s, least_rows_in(problem.air->flow),
               AdaptiveStepper::Step::renewed),
       air_(std::make_unique<CoupledFlow>(*problem.air, mesh(), &team())) {
-  check_width(folded(), problem.air->flow.grid);
+  check_width(folded(), smallest_ratio(problem.sizes), problem.air->flow.grid);
   check_folds(folded(), cells_of(mesh()), problem.air->flow.grid);
   require_apart(surface_of(cells_of(mesh()), folded().positions), problem.air->flow.bodies);
   require_lines_apart(mesh(), folded().positions, problem.air->flow.bodies);

@@ -65,7 +65,7 @@ Equilibrium find_equilibrium(const Cloth& cloth, const std::vector<Vec3>& previo
   return found;
 }
 
-Equilibrium find_equilibrium(const Cluster& cluster, const Cloth& one, const Cloth& all,
+Equilibrium find_equilibrium(const Cluster& cluster, const std::vector<ClothPtr>& each, const Cloth& all,
                              const std::vector<Vec3>& previous, const Loads& loads,
                              const EquilibriumOptions& how, ThreadTeam& team,
                              const std::function<void(const RelaxProgress&)>& report) {
@@ -74,6 +74,7 @@ Equilibrium find_equilibrium(const Cluster& cluster, const Cloth& one, const Clo
   std::vector<Vec3> shape = previous;
   for (int k = 0; k < cluster.canopies(); ++k) {
     const Cluster::Frame axes = cluster.frame(k);
+    const Cloth& one = *each[cluster.equal() ? 0 : static_cast<std::size_t>(k)];
     Loads own{cluster.part(k, loads.cell_pressure), cluster.part(k, loads.node_force)};
     for (Vec3& force : own.node_force) force = axes.in(force);
     const Equilibrium canopy =
@@ -82,7 +83,7 @@ Equilibrium find_equilibrium(const Cluster& cluster, const Cloth& one, const Clo
         });
     for (const Vec3& force : pivot_restraint(one, canopy.cloth, own))
       found.restraint.push_back(axes.out(force));
-    cluster.put(k, cluster.upright(positions(canopy.cloth, one)), shape);
+    cluster.put(k, cluster.upright(k, positions(canopy.cloth, one)), shape);
     found.converged = found.converged && canopy.converged;
     found.steps += canopy.steps;
     found.residual = std::max(found.residual, canopy.residual);

@@ -49,10 +49,10 @@ Equilibrium find_equilibrium(const Cloth& cloth, const std::vector<Vec3>& previo
                              const EquilibriumOptions& options, ThreadTeam& team,
                              const std::function<void(const RelaxProgress&)>& report = {});
 
-/// The same of the canopies of a cluster, one after the other, each in its own frame. `one` is the cloth of one
-/// canopy, `all` that of the cluster. A canopy turns freely about the confluence: each is turned back to the angle of
-/// the cluster, which changes no follower load, and the restraint cancels its moment there.
-Equilibrium find_equilibrium(const Cluster& cluster, const Cloth& one, const Cloth& all,
+/// The same of the canopies of a cluster, one after the other, each in its own frame. `each` has the cloth of every
+/// canopy, or of one if they are equal, `all` is that of the cluster. A canopy turns freely about the confluence: each is
+/// turned back to the angle of the cluster, which changes no follower load, and the restraint cancels its moment there.
+Equilibrium find_equilibrium(const Cluster& cluster, const std::vector<ClothPtr>& each, const Cloth& all,
                              const std::vector<Vec3>& previous, const Loads& loads,
                              const EquilibriumOptions& options, ThreadTeam& team,
                              const std::function<void(const RelaxProgress&)>& report = {});

@@ -151,6 +151,8 @@ FreeFlight::FreeFlight(FlightProblem problem)
     if (!problem_.from) require_lines_apart(mesh_, problem_.shape, bodies);
     bodies_ = CarriedBodies(bodies, pose(problem_.shape));
   }
+  mouth_share_ = mouths(mesh_.start);
+  for (double& share : mouth_share_) share /= mouth_area(mouths(mesh_.start));
   const double of_one = mouth_area(mouths(problem_.shape)) / canopies();
   const double diameter = std::sqrt(of_one * 4 / std::numbers::pi);
   follow_ = follow_rate * fastest(problem_) / diameter;
@@ -375,9 +377,8 @@ FreeFlightRow FreeFlight::advance(FreeFlightState& state) {
   row.momentum_gap = norm(taken.flow.momentum_gap), row.mass_defect = taken.flow.mass_defect;
   // A canopy that has just opened may still grow.
   if (problem_.from) state.mouth_at_start = std::max(state.mouth_at_start, row.mouth_area);
-  const std::vector<double> open = mouths(x);
-  const double least = *std::min_element(open.begin(), open.end());
-  if (least >= collapsed_share * state.mouth_at_start / canopies())
+  if (const std::vector<double> open = open_shares(x);
+      *std::min_element(open.begin(), open.end()) >= collapsed_share * state.mouth_at_start)
     state.collapsed_since = -1;
   else if (state.collapsed_since < 0)
     state.collapsed_since = row.time;
@@ -393,11 +394,18 @@ std::string FreeFlight::failure(const FreeFlightState& state, const FreeFlightRo
   if (row.angle > limit) return fmt::format("the parachute turned over at {:.4g} s", row.time);
   if (state.collapsed_since >= 0 && row.time - state.collapsed_since > collapsed_for) {
     if (canopies() == 1) return fmt::format("the canopy collapsed at {:.4g} s", state.collapsed_since);
-    const std::vector<double> open = mouths(positions(state.coupled.cloth, *cloth_));
+    const std::vector<double> open = open_shares(positions(state.coupled.cloth, *cloth_));
     const auto number = std::min_element(open.begin(), open.end()) - open.begin() + 1;
     return fmt::format("canopy {} of the cluster collapsed at {:.4g} s", number, state.collapsed_since);
   }
   return "";
+}
+
+/// Mouth of each canopy over its share in all mouths [m2].
+std::vector<double> FreeFlight::open_shares(const std::vector<Vec3>& x) const {
+  std::vector<double> open = mouths(x);
+  for (std::size_t k = 0; k < open.size(); ++k) open[k] /= mouth_share_[k];
+  return open;
 }
 
 std::vector<CanopyRow> FreeFlight::canopy_rows(const FreeFlightState& state) const {

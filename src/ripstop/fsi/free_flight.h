@@ -96,6 +96,7 @@ class FreeFlight {
   std::vector<double> mouths(const std::vector<Vec3>& x) const {
     return mouth_areas(air_->cells(), x, canopies());
   }
+  std::vector<double> open_shares(const std::vector<Vec3>& x) const;
   void check_cells(const std::vector<Vec3>& x, double time) const;
   CarriedBodies::Pose pose(const std::vector<Vec3>& x) const;
   std::vector<Placement> place_bodies(const FreeFlightState& state, double length) const;
@@ -114,9 +115,10 @@ class FreeFlight {
   Vec3 home_;                // of the canopy's centroid in the box [m]
   Extent fine_;              // cells of the flow
   CarriedBodies bodies_;
-  double follow_ = 0;        // rate at which the box follows the canopy [1/s]
-  double longest_step_ = 0;  // of the flow [s]
-  double row_ = 0;           // of the cloth's history [s]
+  double follow_ = 0;                // rate at which the box follows the canopy [1/s]
+  double longest_step_ = 0;          // of the flow [s]
+  std::vector<double> mouth_share_;  // of each canopy in the area of all mouths, as cut
+  double row_ = 0;                   // of the cloth's history [s]
   ClothPtr cloth_;
   AdaptiveStepper stepper_;
   std::unique_ptr<CoupledFlow> air_;

@@ -44,7 +44,7 @@ Opening::Opening(InflationProblem problem, double snapshot_span, double least_ro
     : problem_(with_snapshots(std::move(problem), snapshot_span)),
       team_(problem_.threads),
       cloths_(problem_.mesh, problem_.settings, problem_.reefing, problem_.symmetry, problem_.linear, team_,
-              problem_.cluster),
+              problem_.cluster, problem_.sizes),
       blocks_per_frame_(parts_of(problem_.settings.duration_s / problem_.settings.frames / longest_block,
                                  "blocks for each frame")),
       rows_per_block_(parts_of(problem_.settings.duration_s / problem_.settings.frames / blocks_per_frame_ *

@@ -25,6 +25,7 @@ struct InflationProblem {
   std::optional<AirProblem> air = {};
   std::vector<ReefingLine> reefing = {};      // in the order of their cuts
   std::optional<ClusterLayout> cluster = {};  // `mesh` is one of its canopies, not yet joined
+  std::vector<SizedCanopy> sizes = {};        // of each of its canopies; empty: all are as `mesh`
   std::vector<double> delays = {};            // of its canopies: they stay folded until then [s]; empty: 0
 };
 

@@ -94,12 +94,12 @@ void damp_springs(Mesh& mesh, double line_time, double cloth_time) {
 
 OpeningCloth::OpeningCloth(const CanopyMesh& as_cut, const InflationSettings& s,
                            std::vector<ReefingLine> reefing, int symmetry, bool linear, ThreadTeam& team,
-                           const std::optional<ClusterLayout>& cluster)
+                           const std::optional<ClusterLayout>& cluster, const std::vector<SizedCanopy>& sizes)
     : folded_(folded_start(as_cut, {required_radius(s), s.folds, s.slack_m}, symmetry, team)),
       reefing_(std::move(reefing)) {
   mesh_ = with_creases(as_cut, folded_);
   if (cluster)
-    join(*cluster, s);
+    join(*cluster, sizes, s, symmetry, team);
   else
     start_ = with_imperfection(mesh_, folded_, s, 0);
   const double cloth_damping = s.cloth_damping_s.value_or(0);
@@ -134,13 +134,25 @@ void OpeningCloth::add_reefed_stages(const InflationSettings& settings, const Cl
 }
 
 // Every canopy is folded about its own axis, and put at its place in the cluster.
-void OpeningCloth::join(const ClusterLayout& layout, const InflationSettings& settings) {
-  cluster_.emplace(mesh_, layout);
+void OpeningCloth::join(const ClusterLayout& layout, const std::vector<SizedCanopy>& sizes,
+                        const InflationSettings& settings, int symmetry, ThreadTeam& team) {
+  std::vector<CanopyMesh> meshes;
+  std::vector<FoldedStart> starts;
+  for (const auto& [mesh, ratio] : sizes) {
+    const Folding folding{ratio * required_radius(settings), settings.folds, ratio * settings.slack_m};
+    starts.push_back(ratio == 1 ? folded_ : folded_start(mesh, folding, symmetry, team));
+    meshes.push_back(with_creases(mesh, starts.back()));
+  }
+  if (sizes.empty()) meshes.push_back(mesh_), starts.push_back(folded_);
+  cluster_.emplace(std::move(meshes), layout);
   JoinedCluster joined = join_risers(cluster_->mesh());
   std::vector<Vec3> folded(joined.node.size()), start = folded;
   for (int k = 0; k < layout.canopies; ++k) {
-    cluster_->put(k, folded_.positions, folded);
-    cluster_->put(k, with_imperfection(mesh_, folded_, settings, k), start);
+    const std::size_t size = sizes.empty() ? 0 : static_cast<std::size_t>(k);
+    InflationSettings own = settings;
+    if (!sizes.empty()) own.imperfection_m *= sizes[size].ratio;
+    cluster_->put(k, starts[size].positions, folded);
+    cluster_->put(k, with_imperfection(cluster_->one(k), starts[size], own, k), start);
   }
   folded_.positions = joined.joined(folded);
   start_ = joined.joined(start);
@@ -153,12 +165,13 @@ std::vector<std::vector<Vec3>> OpeningCloth::upright(const std::vector<Vec3>& x)
   std::vector<Vec3> all;
   for (const int node : joined_) all.push_back(x[node]);
   std::vector<std::vector<Vec3>> canopies;
-  for (int k = 0; k < cluster_->canopies(); ++k) canopies.push_back(cluster_->upright(cluster_->own(k, all)));
+  for (int k = 0; k < cluster_->canopies(); ++k)
+    canopies.push_back(cluster_->upright(k, cluster_->own(k, all)));
   return canopies;
 }
 
 std::vector<GuidedNode> OpeningCloth::guided_canopy(int k) const {
-  const CanopyMesh& canopy = cluster_->one();
+  const CanopyMesh& canopy = cluster_->one(k);
   const std::size_t first = static_cast<std::size_t>(k) * canopy.start.size();
   std::vector<int> nodes;
   for (const Patch& patch : canopy.patches)

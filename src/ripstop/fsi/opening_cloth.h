@@ -24,18 +24,27 @@ struct ReefingLine {
 /// yarns between nodes two cells apart. Times in [s].
 void damp_springs(Mesh& mesh, double line_time, double cloth_time);
 
+/// A canopy of a cluster as it is cut, with its size over that of the largest one. Radius of the folded skirt, slack
+/// and imperfection are so much smaller too.
+struct SizedCanopy {
+  CanopyMesh mesh;
+  double ratio = 1;
+};
+
 class OpeningCloth {
  public:
   /// Throws Error(usage) for a folding or a reefing line that does not fit.
-  /// `as_cut` is one canopy; with `cluster` there are several of them, whose risers end at one node.
+  /// `as_cut` is one canopy; with `cluster` there are several of them, whose risers end at one node. `sizes`: of each
+  /// canopy of the cluster; empty: all of them are as `as_cut`.
   OpeningCloth(const CanopyMesh& as_cut, const InflationSettings& settings, std::vector<ReefingLine> reefing,
-               int symmetry, bool linear, ThreadTeam& team, const std::optional<ClusterLayout>& cluster);
+               int symmetry, bool linear, ThreadTeam& team, const std::optional<ClusterLayout>& cluster,
+               const std::vector<SizedCanopy>& sizes = {});
 
   const CanopyMesh& mesh() const { return mesh_; }
   const FoldedStart& folded() const { return folded_; }
   /// By how much the dampers of the cloth are weaker than `cloth_damping_s`, so that they do not limit the time step.
   const ViscosityLimit& viscosity_limit() const { return viscosity_limit_; }
-  /// One canopy, with its creases.
+  /// One canopy, with its creases; of several sizes that of the first one.
   const CanopyMesh& one() const { return cluster_ ? cluster_->one() : mesh_; }
   /// Positions of the nodes of every canopy, of a cluster each in its own frame with the skirt on the axis.
   std::vector<std::vector<Vec3>> upright(const std::vector<Vec3>& x) const;
@@ -55,7 +64,8 @@ class OpeningCloth {
   bool cut_due(InflationState& state) const;
 
  private:
-  void join(const ClusterLayout& layout, const InflationSettings& settings);
+  void join(const ClusterLayout& layout, const std::vector<SizedCanopy>& sizes,
+            const InflationSettings& settings, int symmetry, ThreadTeam& team);
   void add_reefed_stages(const InflationSettings& settings, const ClothOptions& options);
 
   CanopyMesh mesh_;

@@ -92,8 +92,9 @@ SteadySolver::SteadySolver(SteadyProblem problem, FlowEngine& engine)
     area_.insert(area_.end(), patch.cell_area.begin(),
                  patch.cell_area.begin() + (patch.rows - 1) * patch.columns);
   }
-  if (problem_.cluster)
-    one_cloth_ = make_cloth(problem_.cluster->one(), {.linear = problem_.settings.linear});
+  if (const auto& cluster = problem_.cluster)
+    for (int k = 0; k < (cluster->equal() ? 1 : cluster->canopies()); ++k)
+      canopies_.push_back(make_cloth(cluster->one(k), {.linear = problem_.settings.linear}));
   require_inside(problem_.flow.grid, problem_.mesh, cells_);
   require_lines_apart(problem_.mesh, problem_.mesh.start, problem_.flow.bodies);
 }
@@ -171,8 +172,8 @@ Equilibrium SteadySolver::solve_cloth(const SteadyState& state, const Loads& loa
   const auto shown = [&](const RelaxProgress& progress) {
     if (report) report({.stage = SteadyStage::cloth, .iteration = now.iteration, .cloth = progress});
   };
-  Equilibrium found = problem_.cluster ? find_equilibrium(*problem_.cluster, *one_cloth_, *cloth_,
-                                                          state.shape, loads, options, team_, shown)
+  Equilibrium found = problem_.cluster ? find_equilibrium(*problem_.cluster, canopies_, *cloth_, state.shape,
+                                                          loads, options, team_, shown)
                                        : find_equilibrium(*cloth_, state.shape, loads, options, team_, shown);
   if (!found.converged) {
     throw QuantityError(

@@ -96,7 +96,7 @@ class SteadySolver {
   SteadyProblem problem_;
   std::unique_ptr<Flow> flow_;
   ClothPtr cloth_;
-  ClothPtr one_cloth_;  // of one canopy of a cluster; else null
+  std::vector<ClothPtr> canopies_;  // the cloth of each canopy of a cluster, or of one if they are equal
   std::vector<Cell> cells_;
   std::vector<double> area_;  // of the cells as cut [m2]
   SteadyConvergence convergence_;

@@ -25,9 +25,9 @@ void shift(std::vector<int>& indices, int by) {
   for (int& i : indices) i += by;
 }
 
-/// Numbers of nodes, springs, patches and parts of a canopy behind those of earlier ones.
+/// Numbers of nodes, springs, patches, parts, lines and laws of a canopy behind those of earlier ones.
 struct Offsets {
-  int node, spring, patch, part, radial;
+  int node, spring, patch, part, radial, law;
 };
 
 void append(CanopyMesh& all, const CanopyMesh& one, const Offsets& at, int number) {
@@ -37,7 +37,7 @@ void append(CanopyMesh& all, const CanopyMesh& one, const Offsets& at, int numbe
     all.patches.push_back(std::move(patch));
   }
   for (Spring spring : one.springs) {
-    spring.a += at.node, spring.b += at.node, spring.part += at.part;
+    spring.a += at.node, spring.b += at.node, spring.part += at.part, spring.law += at.law;
     all.springs.push_back(spring);
   }
   for (Tie tie : one.ties) {
@@ -64,6 +64,24 @@ void append(CanopyMesh& all, const CanopyMesh& one, const Offsets& at, int numbe
   add(all.rigging.band_patches, one.rigging.band_patches, at.patch);
 }
 
+/// The slices of all lists by canopy need equal counts.
+void require_same_topology(const CanopyMesh& a, const CanopyMesh& b) {
+  const auto patches = [](const Patch& p, const Patch& q) {
+    return p.first_node == q.first_node && p.rows == q.rows && p.columns == q.columns;
+  };
+  const auto ends = [](const Spring& s, const Spring& t) { return s.a == t.a && s.b == t.b; };
+  if (a.start.size() == b.start.size() && std::ranges::equal(a.patches, b.patches, patches) &&
+      std::ranges::equal(a.springs, b.springs, ends) && a.ties.size() == b.ties.size() &&
+      a.fixed == b.fixed && a.rigging.skirt_nodes == b.rigging.skirt_nodes &&
+      a.rigging.lines.size() == b.rigging.lines.size())
+    return;
+  throw Error(
+      ExitCode::usage,
+      fmt::format("the meshes of two canopies of the cluster differ in more than their size: {} and {} "
+                  "nodes, {} and {} springs; use another size of the canopy",
+                  a.start.size(), b.start.size(), a.springs.size(), b.springs.size()));
+}
+
 }  // namespace
 
 double ClusterLayout::azimuth(int k) const {
@@ -82,15 +100,30 @@ Vec3 ClusterLayout::width() const {
   return {2 * std::max(high.x, -low.x), 2 * std::max(high.y, -low.y), 0};
 }
 
-Cluster::Cluster(CanopyMesh one, ClusterLayout layout) : one_(std::move(one)), layout_(layout) {
-  if (one_.fixed.size() != 1 || one_.rigging.skirt_nodes.empty() || one_.patches.empty())
+Cluster::Cluster(CanopyMesh one, ClusterLayout layout)
+    : Cluster(std::vector<CanopyMesh>{std::move(one)}, layout) {}
+
+Cluster::Cluster(std::vector<CanopyMesh> canopies, ClusterLayout layout)
+    : each_(std::move(canopies)), layout_(layout) {
+  if (!equal() && std::ssize(each_) != layout_.canopies)
     throw Error(ExitCode::usage,
-                fmt::format("a canopy of a cluster needs one fixed node and a skirt; this one has {} fixed "
-                            "nodes and {} nodes at its skirt",
-                            one_.fixed.size(), one_.rigging.skirt_nodes.size()));
-  end_of_riser_ = one_.start[one_.fixed.front()];
-  const double length = skirt_centroid(one_, one_.start).z - end_of_riser_.z;
-  confluence_ = end_of_riser_ + Vec3{0, 0, length * (1 - std::cos(layout_.spread))};
+                fmt::format("{} meshes for a cluster of {} canopies", each_.size(), layout_.canopies));
+  for (const CanopyMesh& mesh : each_) {
+    if (mesh.fixed.size() != 1 || mesh.rigging.skirt_nodes.empty() || mesh.patches.empty())
+      throw Error(ExitCode::usage,
+                  fmt::format("a canopy of a cluster needs one fixed node and a skirt; this one has {} fixed "
+                              "nodes and {} nodes at its skirt",
+                              mesh.fixed.size(), mesh.rigging.skirt_nodes.size()));
+    require_same_topology(each_.front(), mesh);
+  }
+  int longest = 0;
+  for (int k = 1; k < std::ssize(each_); ++k)
+    if (length(k) > length(longest)) longest = k;
+  confluence_ = end_of_riser(longest) + Vec3{0, 0, length(longest) * (1 - std::cos(layout_.spread))};
+}
+
+double Cluster::length(int k) const {
+  return skirt_centroid(one(k), one(k).start).z - end_of_riser(k).z;
 }
 
 Cluster::Frame Cluster::frame(int k) const {
@@ -101,50 +134,62 @@ Cluster::Frame Cluster::frame(int k) const {
 
 CanopyMesh Cluster::mesh() const {
   CanopyMesh all;
-  all.laws = one_.laws;
-  all.fabric_names = one_.fabric_names;
-  const int nodes = one_.node_count(), springs = static_cast<int>(one_.springs.size()),
-            patches = static_cast<int>(one_.patches.size()), parts = static_cast<int>(one_.parts.size());
+  all.laws = one().laws;
+  all.fabric_names = one().fabric_names;
+  const int nodes = one().node_count(), springs = static_cast<int>(one().springs.size()),
+            patches = static_cast<int>(one().patches.size()), parts = static_cast<int>(one().parts.size());
   int radials = 0;
-  for (const LineRun& line : one_.rigging.lines) radials = std::max(radials, line.radial + 1);
+  for (const LineRun& line : one().rigging.lines) radials = std::max(radials, line.radial + 1);
   all.start.resize(static_cast<std::size_t>(nodes) * layout_.canopies);
   for (int k = 0; k < layout_.canopies; ++k) {
-    append(all, one_, {k * nodes, k * springs, k * patches, k * parts, k * radials}, k + 1);
-    all.mass.insert(all.mass.end(), one_.mass.begin(), one_.mass.end());
-    put(k, one_.start, all.start);
+    const CanopyMesh& canopy = one(k);
+    int laws = 0;
+    if (!equal() && k > 0) {
+      laws = static_cast<int>(all.laws.size());
+      all.laws.insert(all.laws.end(), canopy.laws.begin(), canopy.laws.end());
+    }
+    append(all, canopy, {k * nodes, k * springs, k * patches, k * parts, k * radials, laws}, k + 1);
+    all.mass.insert(all.mass.end(), canopy.mass.begin(), canopy.mass.end());
+    put(k, canopy.start, all.start);
   }
-  all.rigging.confluence = one_.rigging.confluence;
+  all.rigging.confluence = one().rigging.confluence;
   all.rigging.canopies = layout_.canopies;
   return all;
 }
 
 std::vector<Vec3> Cluster::own(int k, const std::vector<Vec3>& all) const {
   const Frame axes = frame(k);
+  const Vec3 end = end_of_riser(k);
   std::vector<Vec3> x = part(k, all);
-  for (Vec3& p : x) p = end_of_riser_ + axes.in(p - confluence_);
+  for (Vec3& p : x) p = end + axes.in(p - confluence_);
   return x;
 }
 
 void Cluster::put(int k, const std::vector<Vec3>& own, std::vector<Vec3>& all) const {
   const Frame axes = frame(k);
+  const Vec3 end = end_of_riser(k);
   const std::size_t first = static_cast<std::size_t>(k) * own.size();
-  for (std::size_t n = 0; n < own.size(); ++n)
-    all[first + n] = confluence_ + axes.out(own[n] - end_of_riser_);
+  for (std::size_t n = 0; n < own.size(); ++n) all[first + n] = confluence_ + axes.out(own[n] - end);
 }
 
 std::vector<Vec3> Cluster::overlaid(const std::vector<Vec3>& all) const {
   std::vector<Vec3> x;
   for (int k = 0; k < layout_.canopies; ++k) {
-    const std::vector<Vec3> one = own(k, all);
-    x.insert(x.end(), one.begin(), one.end());
+    std::vector<Vec3> canopy = own(k, all);
+    if (!equal()) {
+      const double larger = length(0) / length(k);
+      const Vec3 to = end_of_riser(0), from = end_of_riser(k);
+      for (Vec3& p : canopy) p = to + larger * (p - from);
+    }
+    x.insert(x.end(), canopy.begin(), canopy.end());
   }
   return x;
 }
 
-std::vector<Vec3> Cluster::upright(std::vector<Vec3> own) const {
-  const Vec3 arm = skirt_centroid(one_, own) - end_of_riser_;
+std::vector<Vec3> Cluster::upright(int k, std::vector<Vec3> own) const {
+  const Vec3 end = end_of_riser(k), arm = skirt_centroid(one(k), own) - end;
   const Vec3 axis = arm / norm(arm);
-  for (Vec3& p : own) p = end_of_riser_ + raised(p - end_of_riser_, axis);
+  for (Vec3& p : own) p = end + raised(p - end, axis);
   return own;
 }
 
@@ -189,7 +234,7 @@ double Cluster::gap(const std::vector<Vec3>& all) const {
   for (int k = 0; k < layout_.canopies; ++k) {
     const double around = layout_.azimuth(k), c = std::cos(around), s = std::sin(around);
     const std::vector<Vec3> x = part(k, all);
-    for (const Patch& patch : one_.patches)
+    for (const Patch& patch : one().patches)
       for (int node = patch.first_node; node < patch.first_node + patch.rows * patch.columns; ++node) {
         const Vec3 p = x[node];
         const double outward = c * p.x + s * p.y, across = std::abs(c * p.y - s * p.x);

@@ -1,4 +1,4 @@
-// Two to four equal canopies, each on its riser, whose risers end at one confluence.
+// Two to four canopies, each on its riser, whose risers end at one confluence.
 #pragma once
 
 #include <vector>
@@ -23,14 +23,19 @@ struct ClusterLayout {
 };
 
 /// The meshes of a cluster. Nodes, springs, patches and cells are those of the first canopy, then those of the second
-/// one. In its own frame a canopy is on the axis x = y = 0, with the end of its riser where that of `one` is.
+/// one. In its own frame a canopy is on the axis x = y = 0, with the end of its riser where that of its own mesh is.
 class Cluster {
  public:
-  /// `one` is on the axis and has one fixed node, which becomes the confluence. The centre of the skirts has the height
-  /// of that of `one`. Throws Error(usage) for a mesh without cloth, skirt or such a node.
+  /// Of equal canopies: `one` is on the axis and has one fixed node, which becomes the confluence. The centre of the
+  /// skirts has the height of that of `one`. Throws Error(usage) for a mesh without cloth, skirt or such a node.
   Cluster(CanopyMesh one, ClusterLayout layout);
+  /// Of canopies of several sizes, one mesh for each, all with the same topology. The skirt of the longest one has the
+  /// height that it has in its own mesh. Throws Error(usage) as above, and for meshes of other topology.
+  Cluster(std::vector<CanopyMesh> canopies, ClusterLayout layout);
 
-  const CanopyMesh& one() const { return one_; }
+  /// The mesh of canopy `k` on the axis. Numbers of nodes, springs and patches are the same for all of them.
+  const CanopyMesh& one(int k = 0) const { return each_[equal() ? 0 : static_cast<std::size_t>(k)]; }
+  bool equal() const { return each_.size() == 1; }
   const ClusterLayout& layout() const { return layout_; }
   int canopies() const { return layout_.canopies; }
   Vec3 confluence() const { return confluence_; }
@@ -49,10 +54,11 @@ class Cluster {
   std::vector<Vec3> own(int k, const std::vector<Vec3>& all) const;
   /// The converse.
   void put(int k, const std::vector<Vec3>& own, std::vector<Vec3>& all) const;
-  /// Positions of all nodes, each in the frame of its own canopy.
+  /// Positions of all nodes, each in the frame of its own canopy; canopies of another size as large as the first one.
   std::vector<Vec3> overlaid(const std::vector<Vec3>& all) const;
-  /// Positions in the own frame, turned about the end of the riser until the centroid of the skirt is on the axis.
-  std::vector<Vec3> upright(std::vector<Vec3> own) const;
+  /// Positions of canopy `k` in its own frame, turned about the end of the riser until the centroid of the skirt is on
+  /// the axis.
+  std::vector<Vec3> upright(int k, std::vector<Vec3> own) const;
 
   /// Smallest distance between the cloth of two canopies, at least: twice that of a node of the cloth from the planes
   /// midway between neighbours. Negative where cloth has crossed such a plane [m].
@@ -65,9 +71,13 @@ class Cluster {
   }
 
  private:
-  CanopyMesh one_;
+  /// End of the riser of canopy `k` in its own frame.
+  Vec3 end_of_riser(int k) const { return one(k).start[one(k).fixed.front()]; }
+  /// From the end of the riser to the skirt of canopy `k` [m].
+  double length(int k) const;
+
+  std::vector<CanopyMesh> each_;  // one of equal canopies
   ClusterLayout layout_;
-  Vec3 end_of_riser_;  // of `one`
   Vec3 confluence_;
 };
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "ripstop/case/opening.h"
+#include "ripstop/case/payload.h"
 #include "ripstop/core/file.h"
 #include "ripstop/output/csv.h"
 #include "ripstop/run/opening/inflation_folder.h"
@@ -122,6 +123,38 @@ TEST(ClusterInflation, ACanopyStaysFoldedUntilItsDelayAndThenOpens) {
   EXPECT_GT(rows[0].mouth_area, 1.02 * rows[1].mouth_area);
   const std::vector<Vec3> released = open_until(6e-3);
   EXPECT_GT(unfolded(*solver, released, 1), 2e-3);
+}
+
+TEST(ClusterInflation, CanopiesOfTwoSizesStartAsSmallerOnesOfTheSameFolds) {
+  constexpr double ratio = 0.7;
+  const InflationSolution solution = opened([](Case& given) {
+    given.cluster->size_ratios = {1, ratio};
+    given.flow.cells = {64, 40, 52};
+    given.inflation.duration_s = 2e-3, given.inflation.frames = 1;
+  });
+  const std::vector<CanopyRow>& rows = solution.history.canopies;
+  ASSERT_GE(rows.size(), 2u);
+  EXPECT_NEAR(rows[1].mouth_area / rows[0].mouth_area, ratio * ratio, 0.02);
+  EXPECT_NEAR(rows[1].spread / rows[0].spread, 1, 0.1);
+  const ClusterOpening& cluster = solution.result.cluster.value();
+  EXPECT_EQ(cluster.canopies[0].size_ratio.value(), 1);
+  EXPECT_EQ(cluster.canopies[1].size_ratio.value(), ratio);
+  EXPECT_LT(solution.result.start_strain, 1e-3);
+  EXPECT_LT(solution.result.energy_residual, 0.02);
+}
+
+TEST(ClusterInflation, APayloadOfCanopiesOfTwoSizesHasTheMassBeyondBothMeshes) {
+  Case given = two_canopies();
+  given.payload.mass_kg = 2, given.payload.deployment_speed_m_s = 20;
+  given.inflation.mass = InflationSettings::Mass::payload;
+  given.cluster->size_ratios = {1, 0.7};
+  given.flow.cells = {64, 40, 52};
+  const Settings resolved = resolve(opening_case(checked(given)));
+  const InflationProblem problem = problem_of(resolved);
+  double cloth = 0;
+  for (const SizedCanopy& canopy : problem.sizes)
+    for (const double node : canopy.mesh.mass) cloth += node;
+  EXPECT_NEAR(problem.air->payload->mass + cloth, 2 + mass_of_canopies(resolved), 1e-9);
 }
 
 TEST(ClusterInflation, DelaysAreInTheResult) {

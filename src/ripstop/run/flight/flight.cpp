@@ -171,6 +171,9 @@ FlightCluster cluster_of_flight(const FlightResult& r, const Settings& resolved,
   if (!failed(r.ended_by))
     cluster.motion = summarise_cluster(history.canopies, flight.canopies(), flight.began(), start_up,
                                        contact_gap(flight.mesh()));
+  if (cluster.motion && !equal_canopies(resolved.written()))
+    for (int k = 0; k < flight.canopies(); ++k)
+      cluster.motion->canopies[static_cast<std::size_t>(k)].size_ratio = size_ratio(resolved.written(), k);
   return cluster;
 }
 
@@ -246,7 +249,7 @@ FlightResult result_of(const Settings& resolved, const FreeFlight& flight, const
   r.payload_mass = *resolved.payload().mass_kg, r.parachute_mass = flight.mass() - r.payload_mass;
   r.air_source = opening_air(resolved).from;
   r.density = resolved.flow().density_kg_m3,
-  r.reference_area = flight.canopies() * nominal_area(resolved.parachute());
+  r.reference_area = area_ratio(resolved.written()) * nominal_area(resolved.parachute());
   if (!start.opening) r.axial_speed = start.speed, r.axial_coefficient = start.coefficient;
   r.known_coefficient = experience(resolved.parachute()).drag_coefficient.if_known();
   const FlightSummary summary = summarise_flight(history.rows);

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "ripstop/case/cluster.h"
 #include "ripstop/case/deployment.h"
 #include "ripstop/case/opening.h"
 #include "ripstop/case/payload.h"
@@ -129,7 +130,7 @@ void compare_with_handbook(InflationResult& r, const Settings& resolved, const L
     drag = r.steady_load, from = "the steady load of this opening";
   } else if (!drag && solver.air()) {
     const double coefficient = usual_drag_coefficient(resolved.parachute());
-    drag = solver.canopies() * coefficient * nominal_area(resolved.parachute()) * q;
+    drag = area_ratio(resolved.written()) * coefficient * nominal_area(resolved.parachute()) * q;
     from = fmt::format("C_D {:.3g} (middle of the handbook range) on S0{} at {:.4g} m/s{}", coefficient,
                        solver.canopies() > 1 ? " of all canopies" : "", speed,
                        speed == resolved.flow().speed_m_s ? "" : ", the speed after the deployment");
@@ -156,7 +157,9 @@ void take_filling(InflationResult& r, const Settings& resolved, const Opening& s
   const auto filling = filling_of(history.frames);
   r.filling_time = filling ? std::optional(filling->time) : std::nullopt;
   const double start_area = history.frames.empty() ? 0 : history.frames.front().size.projected_area;
-  if (start_area < folded_share * nominal_area(resolved.parachute())) r.filled = filling.has_value();
+  const double area =
+      nominal_area(resolved.parachute()) * (area_ratio(resolved.written()) / solver.canopies());  // mean
+  if (start_area < folded_share * area) r.filled = filling.has_value();
   if (!filling) return;
   r.growth_exponent = filling->exponent;
   double path = filling->time * stream_speed(resolved, solver);
@@ -195,6 +198,16 @@ std::vector<std::string> opening_body_warnings(const Settings& resolved, const O
       fmt::format("body.{}: an opening under a uniform pressure has no wake of a body but that in its "
                   "pressure; set inflation.air = \"coupled\" for one in the flow",
                   resolved.written().bodies.begin()->first)};
+}
+
+ClusterOpening openings_of(const Settings& resolved, const Opening& solver, const InflationHistory& history,
+                           double start_up) {
+  ClusterOpening cluster =
+      summarise_openings(history.canopies, solver.canopies(), start_up, solver.problem().delays);
+  if (!equal_canopies(resolved.written()))
+    for (int k = 0; k < solver.canopies(); ++k)
+      cluster.canopies[static_cast<std::size_t>(k)].size_ratio = size_ratio(resolved.written(), k);
+  return cluster;
 }
 
 /// A canopy that has not filled, although the mean of all canopies has.
@@ -317,8 +330,7 @@ InflationResult result_of(const Settings& resolved, const LoadSource& source, co
   r.margins = case_margins(resolved, solver.mesh(), state.record.peak_tension, r.stress, line_peaks(r.stages),
                            r.peak_load);
   compare_with_handbook(r, resolved, source, solver);
-  if (solver.canopies() > 1)
-    r.cluster = summarise_openings(history.canopies, solver.canopies(), start_up, solver.problem().delays);
+  if (solver.canopies() > 1) r.cluster = openings_of(resolved, solver, history, start_up);
   take_quality(r, resolved, solver, history);
   r.steps = state.cloth.steps;
   r.step_changes = state.step_changes;

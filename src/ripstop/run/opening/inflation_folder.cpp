@@ -27,6 +27,21 @@ namespace fs = std::filesystem;
 // Of InflationState's list of members: one more with every change of it.
 constexpr int opening_format = 9;
 
+/// Riser loads of the canopies of a cluster, and when each of them opens.
+Plot riser_plot(const std::vector<CanopyRow>& rows, const InflationResult& result) {
+  Plot plot{result.title,
+            {"time from deployment [s]"},
+            {"riser load [N]"},
+            canopy_curves(rows, [](const CanopyRow& row) { return row.riser_load; })};
+  double largest = 0;
+  for (const CanopyOpening& canopy : result.cluster->canopies) largest = std::max(largest, canopy.peak_load);
+  for (std::size_t k = 0; k < result.cluster->canopies.size(); ++k)
+    if (const double delay = result.cluster->canopies[k].delay.value_or(0); delay > 0)
+      plot.series.push_back(
+          {fmt::format("canopy {} opens", k + 1), {delay, delay}, {0, largest}, true, false, true});
+  return plot;
+}
+
 /// Writes every file of the opening before it calls the next observer.
 class InflationFolder : public InflationObserver {
  public:
@@ -127,12 +142,7 @@ void InflationFolder::ended(const Opening& solver, const InflationState& state,
   write_load(solver, history.rows, result);
   write_shapes(solver, state, result.title);
   if (with_air_) write_air_plot(history, result);
-  if (!history.canopies.empty())
-    folder_.write("canopies.png",
-                  Plot{result.title,
-                       {"time from deployment [s]"},
-                       {"riser load [N]"},
-                       canopy_curves(history.canopies, [](const CanopyRow& row) { return row.riser_load; })});
+  if (result.cluster) folder_.write("canopies.png", riser_plot(history.canopies, result));
   CsvTable lines{{"line", "peak_tension_n"}, {}};
   for (std::size_t i = 0; i < result.line_peaks.size(); ++i)
     lines.rows.push_back({static_cast<double>(i + 1), result.line_peaks[i]});

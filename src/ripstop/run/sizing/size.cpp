@@ -18,6 +18,7 @@
 #include "ripstop/core/words.h"
 #include "ripstop/flight/atmosphere.h"
 #include "ripstop/flight/validity.h"
+#include "ripstop/parachute/scale.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/opening/handbook.h"
 #include "ripstop/run/sizing/line_choice.h"

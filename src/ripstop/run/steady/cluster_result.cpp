@@ -9,6 +9,7 @@
 
 #include "ripstop/canopy/shape.h"
 #include "ripstop/canopy/stress.h"
+#include "ripstop/case/cluster.h"
 #include "ripstop/core/words.h"
 
 namespace ripstop::inline run {
@@ -37,8 +38,8 @@ double force_angle(const Cluster& cluster, const SteadyState& state) {
   double mean = 0;
   for (int k = 0; k < cluster.canopies(); ++k) {
     const std::vector<Vec3> shape = cluster.own(k, state.shape);
-    const auto fixed = static_cast<std::size_t>(cluster.one().fixed.front());
-    const double arm = norm(skirt_centroid(cluster.one(), shape) - shape[fixed]);
+    const auto fixed = static_cast<std::size_t>(cluster.one(k).fixed.front());
+    const double arm = norm(skirt_centroid(cluster.one(k), shape) - shape[fixed]);
     const double force = norm(state.canopy_forces.at(static_cast<std::size_t>(k)));
     mean += spreading_moment(cluster, state, k) / (force * arm) / degree / cluster.canopies();
   }
@@ -49,7 +50,7 @@ ClusterResult cluster_result(const SteadySolver& solver, const SteadyState& stat
                              const std::vector<double>& tensions, double drag_coefficient,
                              const Settings& resolved) {
   const Cluster& cluster = *solver.cluster();
-  const CanopyMesh& one = cluster.one();
+  const Case& given = resolved.written();
   ClusterResult result;
   result.spread_angle_deg = cluster.layout().spread / degree;
   result.force_angle_deg = force_angle(cluster, state);
@@ -58,7 +59,9 @@ ClusterResult cluster_result(const SteadySolver& solver, const SteadyState& stat
   for (int k = 0; k < cluster.canopies(); ++k) {
     const std::vector<Vec3> shape = cluster.own(k, state.shape);
     const Vec3 force = state.canopy_forces.at(static_cast<std::size_t>(k));
+    const CanopyMesh& one = cluster.one(k);
     ClusterCanopy& canopy = result.canopies.emplace_back();
+    if (!cluster.equal()) canopy.size_ratio = size_ratio(given, k);
     canopy.azimuth_deg = cluster.layout().azimuth(k) / degree;
     canopy.drag = force.z;
     canopy.force = norm(force);
@@ -66,17 +69,19 @@ ClusterResult cluster_result(const SteadySolver& solver, const SteadyState& stat
     for (const LineTension& t : line_tensions(one, cluster.part(k, tensions)))
       canopy.max_line_tension = std::max(canopy.max_line_tension, t.largest_tension);
     canopy.projected_diameter = canopy_size(one, shape).projected_diameter;
-    least = std::min(least, canopy.force), most = std::max(most, canopy.force), sum += canopy.force;
+    // Loads of canopies of other sizes are compared by the area.
+    const double load = canopy.force / (size_ratio(given, k) * size_ratio(given, k));
+    least = std::min(least, load), most = std::max(most, load), sum += load;
   }
   result.difference = (most - least) / (sum / cluster.canopies());
-  if (const auto& single = resolved.written().cluster->single_drag_coefficient)
+  if (const auto& single = given.cluster->single_drag_coefficient)
     result.cluster_factor = drag_coefficient / *single;
   return result;
 }
 
 Margins margins_after_failure(const SteadySolver& solver, std::vector<double> tensions, StressPeak stress,
                               const Settings& resolved) {
-  const double canopies = solver.cluster()->canopies(), more = canopies / (canopies - 1);
+  const double more = load_after_failure(resolved.written());
   for (double& tension : tensions) tension *= more;
   stress.warp *= more, stress.weft *= more;
   Margins margins = case_margins(resolved, solver.mesh(), tensions, stress);

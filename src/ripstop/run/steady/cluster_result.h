@@ -15,9 +15,9 @@ double force_angle(const Cluster& cluster, const SteadyState& state);
 ClusterResult cluster_result(const SteadySolver& solver, const SteadyState& state,
                              const std::vector<double>& tensions, double drag_coefficient,
                              const Settings& resolved);
-/// Of the canopies that remain when one of them fails: n - 1 carry the load of n in a steady descent, so that all loads
-/// within a canopy are n / (n - 1) times those of the run. The load of the hardware below the confluence does not
-/// change, and the hardware is left out.
+/// Of the canopies that remain when the largest one fails: they carry the load of all in a steady descent, so that all
+/// loads within a canopy are load_after_failure() times those of the run. The load of the hardware below the confluence
+/// does not change, and the hardware is left out.
 Margins margins_after_failure(const SteadySolver& solver, std::vector<double> tensions, StressPeak stress,
                               const Settings& resolved);
 /// Of a canopy along its own axis, mean over the canopies.

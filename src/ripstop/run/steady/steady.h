@@ -101,15 +101,17 @@ void each_member(T& b, Visit&& visit) {
 }
 /// Loads on one canopy of a cluster.
 struct ClusterCanopy {
-  double azimuth_deg = 0;         // about the axis of the cluster, from x
-  double drag = 0;                // along the stream [N]
-  double force = 0;               // its magnitude, the load of the riser [N]
+  std::optional<double> size_ratio;  // over the largest canopy; absent: all are equal
+  double azimuth_deg = 0;            // about the axis of the cluster, from x
+  double drag = 0;                   // along the stream [N]
+  double force = 0;                  // its magnitude, the load of the riser [N]
   double spreading_moment = 0;    // about the confluence, positive where it increases the spread angle [N m]
   double max_line_tension = 0;    // [N]
   double projected_diameter = 0;  // along its own axis [m]
 };
 template <Of<ClusterCanopy> T, class Visit>
 void each_member(T& c, Visit&& visit) {
+  visit("size_ratio", c.size_ratio);
   visit("azimuth_deg", c.azimuth_deg);
   visit("drag_n", c.drag);
   visit("riser_load_n", c.force);
@@ -124,7 +126,7 @@ struct ClusterResult {
   /// positive where the force is inclined outward and spreads the cluster; zero in equilibrium [deg].
   double force_angle_deg = 0;
   double gap = 0;                        // smallest distance between two canopies, at least [m]
-  double difference = 0;                 // of the largest and smallest riser load, relative to the mean
+  double difference = 0;                 // of the largest and smallest riser load on an area, over the mean
   std::optional<double> cluster_factor;  // C_D over that of one canopy, where the case gives that
   /// Of a run that searches for the equilibrium: its steady solutions in turn, the last one is that of the result.
   std::optional<std::vector<SpreadTrial>> search;

@@ -1,0 +1,77 @@
+// A design in another size: the same topology, with the properties of its materials.
+#include "ripstop/parachute/scale.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "../small_case.h"
+#include "ripstop/case/assemble.h"
+
+namespace ripstop {
+namespace {
+
+constexpr double ratio = 0.7;
+
+struct Sizes {
+  CanopyMesh large, small;
+};
+Sizes meshes_of(Case given) {
+  given.cluster.reset();
+  Sizes sizes;
+  sizes.large = parachute_mesh(resolve(checked(given)));
+  given.parachute = in_size(given.parachute, ratio);
+  sizes.small = parachute_mesh(resolve(checked(given)));
+  return sizes;
+}
+
+double cloth_area_of(const CanopyMesh& mesh) {
+  double area = 0;
+  for (const Patch& patch : mesh.patches)
+    for (const double cut : patch.cell_area) area += cut;
+  return area;
+}
+
+TEST(DesignInSize, KeepsTheTopologyAndTheLawsOfClothAndLines) {
+  Case given = flat_circular_case(1, 900, 20);
+  given.parachute.riser.length_m = 0.73;
+  const auto [large, small] = meshes_of(given);
+  ASSERT_EQ(small.node_count(), large.node_count());
+  ASSERT_EQ(small.springs.size(), large.springs.size());
+  for (std::size_t s = 0; s < small.springs.size(); ++s) {
+    const Spring &a = small.springs[s], &b = large.springs[s];
+    EXPECT_EQ(a.a, b.a);
+    EXPECT_EQ(a.b, b.b);
+    EXPECT_NEAR(a.rest_length, ratio * b.rest_length, 1e-9);
+  }
+  // A line of the same material has the same tension at the same strain; cloth the same load per width.
+  const Spring &line = small.springs[static_cast<std::size_t>(small.rigging.lines[0].springs[0])],
+               &like = large.springs[static_cast<std::size_t>(large.rigging.lines[0].springs[0])];
+  EXPECT_NEAR(line.scale * small.laws[line.law].tangent(0), like.scale * large.laws[like.law].tangent(0),
+              1e-6 * like.scale * large.laws[like.law].tangent(0));
+  EXPECT_EQ(small.patches[0].law[along_row].coefficients, large.patches[0].law[along_row].coefficients);
+  EXPECT_NEAR(cloth_area_of(small) / cloth_area_of(large), ratio * ratio, 1e-9);
+  EXPECT_EQ(in_size(given.parachute, ratio).lines.length_m, ratio);
+}
+
+TEST(DesignInSize, OfEveryExampleHasAMeshOfTheSameTopology) {
+  for (const CanopyFamily* family : families()) {
+    Case given =
+        read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples" / family->example / "case.toml");
+    const auto [large, small] = meshes_of(given);
+    EXPECT_EQ(small.node_count(), large.node_count()) << family->type;
+    EXPECT_EQ(small.springs.size(), large.springs.size()) << family->type;
+    EXPECT_EQ(small.patches.size(), large.patches.size()) << family->type;
+  }
+}
+
+TEST(DesignInSize, AGivenReferenceAreaIsSmallerByTheSquare) {
+  Design design = flat_circular_case(1, 900, 20).parachute;
+  design.nominal_area_m2 = 2;
+  EXPECT_NEAR(nominal_area(in_size(design, ratio)), 2 * ratio * ratio, 1e-12);
+  EXPECT_EQ(nominal_area(in_size(design, 1)), 2);
+}
+
+}  // namespace
+}  // namespace ripstop
