@@ -18,11 +18,10 @@ struct Sizes {
   CanopyMesh large, small;
 };
 Sizes meshes_of(Case given) {
-  given.cluster.reset();
   Sizes sizes;
-  sizes.large = parachute_mesh(resolve(checked(given)));
+  sizes.large = parachute_mesh(resolve(given));
   given.parachute = in_size(given.parachute, ratio);
-  sizes.small = parachute_mesh(resolve(checked(given)));
+  sizes.small = parachute_mesh(resolve(given));
   return sizes;
 }
 
@@ -50,7 +49,8 @@ TEST(DesignInSize, KeepsTheTopologyAndTheLawsOfClothAndLines) {
                &like = large.springs[static_cast<std::size_t>(large.rigging.lines[0].springs[0])];
   EXPECT_NEAR(line.scale * small.laws[line.law].tangent(0), like.scale * large.laws[like.law].tangent(0),
               1e-6 * like.scale * large.laws[like.law].tangent(0));
-  EXPECT_EQ(small.patches[0].law[along_row].coefficients, large.patches[0].law[along_row].coefficients);
+  EXPECT_NEAR(small.patches[0].law[along_row].tangent(0) / large.patches[0].law[along_row].tangent(0), 1,
+              1e-9);
   EXPECT_NEAR(cloth_area_of(small) / cloth_area_of(large), ratio * ratio, 1e-9);
   EXPECT_EQ(in_size(given.parachute, ratio).lines.length_m, ratio);
 }

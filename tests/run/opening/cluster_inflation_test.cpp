@@ -95,9 +95,12 @@ double unfolded(const Opening& solver, const std::vector<Vec3>& x, int k) {
   const double azimuth = ClusterLayout{2, 0}.azimuth(k), tilt = spread * std::numbers::pi / 180;
   const Vec3 axis{std::cos(azimuth) * std::sin(tilt), std::sin(azimuth) * std::sin(tilt), std::cos(tilt)};
   double most = 0;
+  std::vector<char> tied(x.size(), 0);  // they follow other nodes
+  for (const Tie& tie : solver.mesh().ties) tied[tie.node] = 1;
   for (const Patch& patch : solver.mesh().patches) {
     if (patch.piece != k) continue;
     for (int node = patch.first_node; node < patch.first_node + patch.rows * patch.columns; ++node) {
+      if (tied[node]) continue;
       const Vec3 moved = x[node] - solver.folded().positions[node];
       most = std::max(most, norm(moved - dot(moved, axis) * axis));
     }
