@@ -197,6 +197,28 @@ TEST_F(ReportPlots, OverSeveralRunsDragIsPlottedOverSpeedWithMeasurements) {
   EXPECT_TRUE(comparison_plots({runs[0], runs[2]}, resolve(given)).empty());  // one speed
 }
 
+TEST_F(ReportPlots, OfAClusterHaveACurveForEachCanopy) {
+  EXPECT_TRUE(canopy_plots(folder.path).empty());
+  CsvTable rows{
+      {"time_s", "canopy", "spread_angle_deg", "azimuth_deg", "riser_load_n", "mouth_area_m2", "gap_m"}, {}};
+  for (const double time : {0.1, 0.2})
+    for (const double canopy : {1.0, 2.0})
+      rows.rows.push_back({time, canopy, 10 * time + canopy, 0, 100 * time + canopy, time / canopy, 1});
+  write_csv(folder.path / "canopies.csv", rows);
+  ReportRun run;
+  run.kind = "opening";
+  const std::vector<ReportPlot> plots = plots_of(run, folder.path);
+  ASSERT_EQ(ids_of(plots), (std::vector<std::string>{"spread", "risers", "mouths"}));
+  for (const ReportPlot& plot : plots) {
+    EXPECT_EQ(names_of(plot), (std::vector<std::string>{"canopy 1", "canopy 2"}));
+    EXPECT_EQ(plot.series[1].x, (Numbers{0.1, 0.2}));
+    EXPECT_TRUE(plot.over_time);
+  }
+  EXPECT_EQ(plots[0].series[1].y, (Numbers{3, 4}));
+  EXPECT_EQ(plots[1].series[0].y, (Numbers{11, 21}));
+  EXPECT_EQ(plots[2].series[1].y, (Numbers{0.05, 0.1}));
+}
+
 TEST_F(ReportPlots, CommonPlotsOfTwoRunsAreOverlaidWithTheirNames) {
   table("history.csv", {"time_s", "load_mean_n", "load_largest_n"});
   table("balance.csv", {"time_s", "projected_diameter_m", "skirt_diameter_m"});
