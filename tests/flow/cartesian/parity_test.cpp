@@ -24,7 +24,7 @@ struct Pair {
 class Parity : public testing::TestWithParam<Pair> {};
 
 TEST_P(Parity, DragAndFieldsAreThoseOfOpenFoam) {
-  if (!openfoam_is_installed()) GTEST_SKIP() << "OpenFOAM is not installed";
+  if (const std::string why = why_no_openfoam(); !why.empty()) GTEST_SKIP() << why;
   FlowProblem problem;
   problem.grid = {{-1, -1, 0}, {2, 2, 4}, 25, 25, 38};
   problem.air.velocity = {0, 0, GetParam().speed};

@@ -27,7 +27,7 @@ TEST(FlowParity, ASurfaceThatLeavesTheBoxOnAnySideIsRefused) {
 
 // At 60 m/s air gives by 1.5 % of its density: engines of different air would differ by more than they do.
 TEST(FlowParity, OfTheSameAirTheEnginesHaveTheSameDrag) {
-  if (!openfoam_is_installed()) GTEST_SKIP() << "OpenFOAM is not installed";
+  if (const std::string why = why_no_openfoam(); !why.empty()) GTEST_SKIP() << why;
   for (const bool incompressible : {false, true}) {
     const TemporaryFolder folder("parity");
     ParitySettings settings;

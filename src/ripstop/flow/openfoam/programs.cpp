@@ -127,6 +127,14 @@ void Programs::explain_failure(const ProcessResult& result, const SolverLog& log
                     installation_.solver, where,
                     log.out_of_memory() ? "a failed allocation" : describe(result), file));
   }
+  if (log.fatal().find("error in IOstream \"sha1\"") != std::string::npos) {
+    throw Error(
+        ExitCode::external,
+        fmt::format("{} cannot run function objects, which every solution by Ripstop needs: versions before "
+                    "2206 that were built with g++ 12 or later cannot, such as that of Debian 13. Install a "
+                    "later version from www.openfoam.com, or use the built-in engine (log: {})",
+                    installation_.solver, file));
+  }
   if (!result.succeeded()) {
     const double free = static_cast<double>(fs::space(folder_).available);
     throw Error(ExitCode::external,
