@@ -40,13 +40,13 @@ void check_sizes(const Case& given, Findings& findings) {
   const ClusterKeys& keys = *given.cluster;
   check_count(keys, keys.size_ratios, "size_ratios", "the size of each canopy, 1 for the largest", findings);
   if (equal_canopies(given) || !findings.sound({"cluster.size_ratios"})) return;
-  if (const double largest = std::ranges::max(keys.size_ratios); largest < 1)
+  if (const double ratio = std::ranges::max(keys.size_ratios); ratio < 1)
     findings.add(
         "cluster.size_ratios", fmt::format("[{:g}]", fmt::join(keys.size_ratios, ", ")),
         "a largest value of 1",
         fmt::format("the largest value is {:g}; describe the largest canopy in [parachute] and give the "
                     "other ones over it",
-                    largest));
+                    ratio));
   if (keys.equilibrium)
     findings.add("cluster.equilibrium", "true", "false",
                  "canopies of different size have no common spread angle of equilibrium; remove "
