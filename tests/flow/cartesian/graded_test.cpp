@@ -4,11 +4,11 @@
 #include <cmath>
 #include <filesystem>
 
-#include "openfoam_installed.h"
 #include "ripstop/flow/bodies.h"
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/openfoam/openfoam.h"
 #include "ripstop/flow/steady.h"
+#include "tests/openfoam_installed.h"
 
 namespace ripstop {
 namespace {

@@ -5,11 +5,11 @@
 #include <filesystem>
 #include <string>
 
-#include "openfoam_installed.h"
 #include "ripstop/flow/bodies.h"
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/openfoam/openfoam.h"
 #include "ripstop/flow/steady.h"
+#include "tests/openfoam_installed.h"
 
 namespace ripstop {
 namespace {

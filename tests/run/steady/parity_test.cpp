@@ -4,7 +4,7 @@
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
-#include "tests/flow/cartesian/openfoam_installed.h"
+#include "tests/openfoam_installed.h"
 
 namespace ripstop {
 namespace {
