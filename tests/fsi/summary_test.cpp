@@ -185,7 +185,7 @@ TEST(Filling, CanopyThatStillGrowsAtTheEndHasNotFilled) {
     frames.push_back(frame);
   }
   EXPECT_FALSE(filling_of(frames));
-  EXPECT_FALSE(filling_of({}));
+  EXPECT_FALSE(filling_of(std::vector<InflationFrame>{}));
   // Folded cloth that flutters about the area of its start.
   for (InflationFrame& frame : frames) frame.size.projected_area = 0.04 + 0.01 * std::sin(400 * frame.time);
   EXPECT_FALSE(filling_of(frames));
