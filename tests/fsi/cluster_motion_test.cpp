@@ -12,7 +12,7 @@
 namespace ripstop {
 namespace {
 
-constexpr double block = 2e-3, duration = 0.4;  // [s]
+constexpr double block = 2e-3, last_row = 0.4;  // [s]
 
 /// Of a canopy that is folded until `begin`, is largest at `begin` + 0.1 s, and then contracts by `contracts` in 0.1 s.
 double mouth_at(double time, double begin, double contracts = 0) {
@@ -24,7 +24,7 @@ double mouth_at(double time, double begin, double contracts = 0) {
 
 std::vector<CanopyRow> rows_of_two(double delay, double contracts = 0) {
   std::vector<CanopyRow> rows;
-  for (int i = 1; i * block < duration * (1 + 1e-9); ++i) {
+  for (int i = 1; i * block < last_row * (1 + 1e-9); ++i) {
     const double time = i * block;
     for (int k = 0; k < 2; ++k) {
       const double mouth = mouth_at(time, k == 0 ? 0 : delay, k == 0 ? 0 : contracts);
