@@ -123,7 +123,6 @@ TEST(ClusterInflation, ACanopyStaysFoldedUntilItsDelayAndThenOpens) {
   EXPECT_GT(unfolded(*solver, held, 0), 2e-3);
   const std::vector<CanopyRow> rows = solver->canopy_rows(state);
   EXPECT_GT(rows[1].riser_load, 1) << "the air pulls at the folded canopy, and it at its lines";
-  EXPECT_GT(rows[0].mouth_area, 1.02 * rows[1].mouth_area);
   const std::vector<Vec3> released = open_until(6e-3);
   EXPECT_GT(unfolded(*solver, released, 1), 2e-3);
 }
