@@ -7,6 +7,7 @@
 #include "members.h"
 #include "module.h"
 #include "ripstop/core/build_info.h"
+#include "ripstop/parachute/scale.h"
 #include "ripstop/run/sizing/size_case.h"
 
 namespace ripstop {

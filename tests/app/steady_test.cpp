@@ -16,7 +16,6 @@
 #include "program.h"
 #include "ripstop/core/file.h"
 #include "ripstop/output/csv.h"
-#include "tests/openfoam_installed.h"
 
 namespace ripstop {
 namespace {
@@ -79,7 +78,6 @@ void expect_last_changes(const std::string& output, const fs::path& run) {
 }
 
 TEST_F(Steady, WithOpenFoamTheDragIsThatOfTheBuiltInEngineAndAKilledRunEndsWithTheSameNumbers) {
-  if (const std::string why = why_no_openfoam(); !why.empty()) GTEST_SKIP() << why;
   ASSERT_EQ(wait_for(start(command("whole", "openfoam"))), 0);
   const json whole = result("whole");
   expect_closed_ledger(whole);
@@ -120,7 +118,6 @@ INSTANTIATE_TEST_SUITE_P(Meshes, SteadyWithSheetsOnOpenFoam, testing::Values("gr
 
 // Two or three coupling iterations on coarse cells, too few to converge, one of them broken off.
 TEST_P(SteadyWithSheetsOnOpenFoam, AKilledRunEndsWithTheSameNumbers) {
-  if (const std::string why = why_no_openfoam(); !why.empty()) GTEST_SKIP() << why;
   const bool fitted = GetParam() == "fitted";
   const std::string levels = fitted ? "1" : "0", iterations = fitted ? "2" : "3";
   const auto run = [&](const std::string& out) {

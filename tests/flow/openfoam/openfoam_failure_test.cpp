@@ -136,6 +136,16 @@ TEST_F(OpenFoamFailure, TheTimeLimitIsNamed) {
   EXPECT_PRED2(says, message(ExitCode::external), "after 3 s");
 }
 
+// The text is in two parts, as ctest skips a test that prints it.
+TEST_F(OpenFoamFailure, ABuildWithoutFunctionObjectsIsNamedWithTheRemedy) {
+  solver(std::string(kOneIteration) +
+         "printf '\\n--> FOAM FATAL IO ERROR: \\nerror in IOstream \"sha1\" for operation '\n"
+         "printf 'Foam::Ostream& Foam::operator<<(Ostream&, const word&)\\n\\nFOAM exiting\\n\\n'; exit 1");
+  const std::string text = message(ExitCode::external);
+  EXPECT_TRUE(says(text, std::string("cannot run ") + "function objects"));
+  EXPECT_TRUE(says(text, "www.openfoam.com"));
+}
+
 TEST_F(OpenFoamFailure, OpenFoamsOwnMessageIsPassedOn) {
   solver("echo '--> FOAM FATAL IO ERROR: '; echo 'keyword div(phi,U) is undefined'; exit 1");
   const std::string text = message(ExitCode::external);
