@@ -181,6 +181,8 @@ void write_pattern_pdf(const std::filesystem::path& path, const Piece& piece, co
   const std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface(
       cairo_pdf_surface_create_for_stream(append_bytes, &bytes, sheets.width / point, sheets.height / point),
       cairo_surface_destroy);
+  // Newer versions of cairo would write PDF 1.7 with compressed page objects.
+  cairo_pdf_surface_restrict_to_version(surface.get(), CAIRO_PDF_VERSION_1_4);
   const std::unique_ptr<cairo_t, decltype(&cairo_destroy)> page(cairo_create(surface.get()), cairo_destroy);
   const std::string name = fmt::format("{}{}{}, {} sheets", head.title, head.title.empty() ? "" : ": ",
                                        piece.name, printed.size());
