@@ -173,10 +173,10 @@ TEST(Cluster, OfTwoSizesHasEachMeshOnARiserToTheSameConfluence) {
       EXPECT_LT(norm(back[n] - own[n]), 1e-9);
     }
   }
-  // Laid over each other they coincide.
+  // Laid over each other they coincide, to the rounding of a start shape that is found by iterations.
   const std::vector<Vec3> overlaid = cluster.overlaid(all.start), first = of_canopy(overlaid, 0, 2),
                           second = of_canopy(overlaid, 1, 2);
-  for (std::size_t n = 0; n < first.size(); ++n) EXPECT_LT(norm(first[n] - second[n]), 1e-9);
+  for (std::size_t n = 0; n < first.size(); ++n) EXPECT_LT(norm(first[n] - second[n]), 1e-8);
   EXPECT_FALSE(mirror_images(all)) << "the plane x = 0 is no plane of symmetry";
 }
 

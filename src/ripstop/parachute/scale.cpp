@@ -1,8 +1,6 @@
 #include "ripstop/parachute/scale.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <variant>
 
@@ -37,23 +35,6 @@ void visit_lengths(const Fields& fields, const std::string& table, const Each& e
   }
 }
 
-/// The segment of lines and riser after a change of size by `ratio`. Rounding must not change the number of whole
-/// segments in a length, which the mesh of every canopy of a cluster shares.
-double scaled_segment(const Design& design, const Design& scaled, double ratio) {
-  constexpr double apart = 1e-12;
-  const double segment = design.mesh.line_segment_m;
-  double least = 0, most = std::numeric_limits<double>::infinity();
-  const auto keep = [&](double length, double scaled_length) {
-    const double count = std::floor(length / segment);
-    if (count < 1) return;
-    least = std::max(least, scaled_length / (count + 1) * (1 + apart));
-    most = std::min(most, scaled_length / count * (1 - apart));
-  };
-  keep(design.lines.length_m, scaled.lines.length_m);
-  keep(design.riser.length_m, scaled.riser.length_m);
-  return std::max(least, std::min(most, ratio * segment));
-}
-
 }  // namespace
 
 void scale_lengths(Design& design, double factor, Rounded round) {
@@ -83,7 +64,7 @@ Design in_size(const Design& design, double ratio) {
   if (ratio == 1) return design;
   Design other = design;
   scale_lengths(other, ratio, Rounded::no);
-  other.mesh.line_segment_m = scaled_segment(design, other, ratio);
+  other.mesh.line_segment_m *= ratio;
   if (other.nominal_area_m2) *other.nominal_area_m2 *= ratio * ratio;
   return other;
 }

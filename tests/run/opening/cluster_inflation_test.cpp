@@ -131,13 +131,16 @@ TEST(ClusterInflation, CanopiesOfTwoSizesStartAsSmallerOnesOfTheSameFolds) {
   constexpr double ratio = 0.7;
   const InflationSolution solution = opened([](Case& given) {
     given.cluster->size_ratios = {1, ratio};
+    given.parachute.riser.length_m = 0.53;  // no whole number of segments: rounding would decide
     given.flow.cells = {64, 40, 52};
     given.inflation.duration_s = 2e-3, given.inflation.frames = 1;
   });
   const std::vector<CanopyRow>& rows = solution.history.canopies;
   ASSERT_GE(rows.size(), 2u);
   EXPECT_NEAR(rows[1].mouth_area / rows[0].mouth_area, ratio * ratio, 0.02);
-  EXPECT_NEAR(rows[1].spread / rows[0].spread, 1, 0.1);
+  // The axis of the cluster points to the mean of the centres of the skirts, nearer to the larger canopy.
+  EXPECT_NEAR(rows[1].spread / rows[0].spread, 1 / ratio, 0.1);
+  EXPECT_NEAR(rows[0].spread + rows[1].spread, 2 * spread, 2);
   const ClusterOpening& cluster = solution.result.cluster.value();
   EXPECT_EQ(cluster.canopies[0].size_ratio.value(), 1);
   EXPECT_EQ(cluster.canopies[1].size_ratio.value(), ratio);
