@@ -31,10 +31,6 @@ CanopyMesh mesh_of(const std::optional<Cluster>& cluster, const Settings& resolv
   return cluster ? cluster->mesh() : parachute_mesh(resolved, own);
 }
 
-}  // namespace
-
-namespace {
-
 /// The settings of each canopy of a cluster; those of one if they are equal.
 std::vector<Settings> settings_of_canopies(const Settings& resolved) {
   if (equal_canopies(resolved.written())) return {resolved};

@@ -171,4 +171,8 @@ std::vector<FlowBody> rigid_bodies(const Settings& resolved) {
   return rigid;
 }
 
+double reference_area(const Settings& resolved, const FlowBody& body) {
+  return resolved.written().bodies.at(body.name).reference_area_m2.value_or(frontal_area(body.surface));
+}
+
 }  // namespace ripstop::inline cases

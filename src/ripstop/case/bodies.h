@@ -80,5 +80,7 @@ BodiesAhead bodies_ahead(const Case& given);
 /// The bodies of a case as bodies of a flow, in the order of their names. Throws Error(bad_data) for a surface that is
 /// not closed, and for a file that is no STL.
 std::vector<FlowBody> rigid_bodies(const Settings& resolved);
+/// Of the drag coefficient of one of them, as placed by rigid_bodies() [m2].
+double reference_area(const Settings& resolved, const FlowBody& body);
 
 }  // namespace ripstop::inline cases

@@ -182,12 +182,13 @@ void require_payload(const Settings& flight) {
 FlightProblem flight_problem(const Settings& flight, std::vector<Vec3> shape, std::vector<double> pressure,
                              int threads) {
   FlightProblem problem = problem_at(flight, flight.flow().speed_m_s, threads);
-  problem.mesh = mesh_as_cut(std::move(problem.mesh), flight);
   problem.shape = std::move(shape), problem.pressure = std::move(pressure);
   if (flight.written().cluster) {
     JoinedCluster joined = join_risers(cluster_as_cut(flight).mesh());
     problem.shape = joined.joined(problem.shape);
     problem.mesh = std::move(joined.mesh);
+  } else {
+    problem.mesh = mesh_as_cut(std::move(problem.mesh), flight);
   }
   return problem;
 }

@@ -152,7 +152,8 @@ FreeFlight::FreeFlight(FlightProblem problem)
     bodies_ = CarriedBodies(bodies, pose(problem_.shape));
   }
   mouth_share_ = mouths(mesh_.start);
-  for (double& share : mouth_share_) share /= mouth_area(mouths(mesh_.start));
+  const double as_cut = mouth_area(mouth_share_);
+  for (double& share : mouth_share_) share /= as_cut;
   const double of_one = mouth_area(mouths(problem_.shape)) / canopies();
   const double diameter = std::sqrt(of_one * 4 / std::numbers::pi);
   follow_ = follow_rate * fastest(problem_) / diameter;

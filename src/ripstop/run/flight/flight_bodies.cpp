@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "ripstop/flow/bodies.h"
+#include "ripstop/case/bodies.h"
 #include "ripstop/flow/statistics.h"
 
 namespace ripstop::inline run {
@@ -40,8 +40,7 @@ std::vector<FlightBody> flight_bodies(const Settings& resolved, const std::vecto
   std::vector<FlightBody> results;
   for (const FlowBody& body : rigid) {
     FlightBody result = mean_of(body, static_cast<double>(results.size() + 1), rows, began, from);
-    result.reference_area =
-        resolved.written().bodies.at(body.name).reference_area_m2.value_or(frontal_area(body.surface));
+    result.reference_area = reference_area(resolved, body);
     result.drag_coefficient = result.drag_area / result.reference_area;
     results.push_back(result);
   }

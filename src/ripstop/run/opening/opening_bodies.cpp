@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "ripstop/flow/bodies.h"
+#include "ripstop/case/bodies.h"
 
 namespace ripstop::inline run {
 namespace {
@@ -46,8 +46,7 @@ std::optional<std::vector<OpeningBody>> opening_bodies(const Settings& resolved,
   std::vector<OpeningBody> results;
   for (const FlowBody& body : rigid) {
     OpeningBody result = result_of_body(body, static_cast<int>(results.size()) + 1, rows, start_up);
-    result.reference_area =
-        resolved.written().bodies.at(body.name).reference_area_m2.value_or(frontal_area(body.surface));
+    result.reference_area = reference_area(resolved, body);
     result.drag_coefficient = result.drag_area / result.reference_area;
     results.push_back(result);
   }

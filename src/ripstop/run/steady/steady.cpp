@@ -10,11 +10,11 @@
 
 #include "ripstop/canopy/mirror.h"
 #include "ripstop/case/assemble.h"
+#include "ripstop/case/bodies.h"
 #include "ripstop/case/cluster.h"
 #include "ripstop/case/cost.h"
 #include "ripstop/case/resolve.h"
 #include "ripstop/core/error.h"
-#include "ripstop/flow/bodies.h"
 #include "ripstop/run/engine.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/quality.h"
@@ -77,8 +77,7 @@ std::vector<BodyResult> body_results(const std::vector<FlowBody>& bodies, const 
   for (std::size_t n = 0; n < state.body_forces.size(); ++n) {
     const FlowBody& body = bodies.at(n + 1);
     const Vec3 force = state.body_forces[n];
-    const double area =
-        resolved.written().bodies.at(body.name).reference_area_m2.value_or(frontal_area(body.surface));
+    const double area = reference_area(resolved, body);
     results.push_back({body.name,
                        force.z,
                        std::hypot(force.x, force.y),
