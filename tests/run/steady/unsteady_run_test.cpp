@@ -9,6 +9,7 @@
 
 #include "ripstop/case/assemble.h"
 #include "ripstop/core/file.h"
+#include "ripstop/flow/statistics.h"
 #include "ripstop/output/csv.h"
 #include "ripstop/run/quality.h"
 #include "ripstop/run/steady/checkpoint.h"
@@ -262,7 +263,9 @@ TEST(UnsteadyRun, LeavesItsHistoryAndItsWakeInTheFolder) {
       history.column("time_s").back() - history.column("time_s").front() + history.column("step_s")[0],
       watched.time, 1e-9);
   // The wake is that of an earlier window: the stream need not pass the box of 4 m again.
-  EXPECT_LT(watched.start_up, std::min(4.0 / 20, 0.45 * watched.time));
+  const Record drag{history.column("time_s"), history.column("drag_n"),
+                    history.column("time_s").front() - history.column("step_s").front()};
+  EXPECT_NEAR(watched.start_up, end_of_start_up(drag) - drag.begin, 1e-9);
   EXPECT_GT(watched.mass_defect, 0);
   EXPECT_LT(watched.mass_defect, quality_limit("mass_defect").warn);
   // Of all steps without the start-up, and of every eighth field in whole parts: equal except for the error
