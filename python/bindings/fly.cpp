@@ -64,9 +64,9 @@ class FlightListener : public FlightObserver {
 
  private:
   /// An interruption ends the inflation that comes first, too.
-  struct OpeningListener : InflationObserver {
-    explicit OpeningListener(Listener& to) : listener(to) {}
-    void advanced(const Opening&, const InflationState&, const InflationHistory&,
+  struct Interruption : InflationObserver {
+    explicit Interruption(Listener& to) : listener(to) {}
+    void advanced(const fsi::Opening&, const InflationState&, const InflationHistory&,
                   const InflationFrame*) override {
       listener.listen();
     }
@@ -74,7 +74,7 @@ class FlightListener : public FlightObserver {
   };
   Listener& listener_;
   PyFlight& run_;
-  OpeningListener opening_{listener_};
+  Interruption opening_{listener_};
 };
 
 std::unique_ptr<PyFlight> fly(const PyCase& given, Callback<FlightProgress> progress, int threads,

@@ -12,7 +12,7 @@ namespace {
 
 using namespace testing;
 
-constexpr double spacing = 0.01;  // [m]
+constexpr double node_spacing = 0.01;  // [m]
 
 /// Two square sheets, one `height` above the other, which is wider by a cell at every side.
 Mesh two_sheets(double height, int cells = 12) {
@@ -21,11 +21,11 @@ Mesh two_sheets(double height, int cells = 12) {
     PatchSpec spec;
     spec.name = more == 0 ? "upper" : "lower";
     spec.rows = spec.columns = cells + 1 + more;
-    const double shift = more == 0 ? 0 : -spacing;
+    const double shift = more == 0 ? 0 : -node_spacing;
     spec.position = [=](int row, int column) {
       // Not node above node, as no two layers lie.
-      const double askew = more == 0 ? 0.3 * spacing : 0;
-      return Vec3{column * spacing + shift + askew, row * spacing + shift, more == 0 ? height : 0};
+      const double askew = more == 0 ? 0.3 * node_spacing : 0;
+      return Vec3{column * node_spacing + shift + askew, row * node_spacing + shift, more == 0 ? height : 0};
     };
     add_patch(mesh, spec, {});
   }
@@ -56,11 +56,11 @@ std::vector<Vec3> folded_over(const Mesh& mesh, double apart) {
 
 // Sheets as cut one spacing apart are neighbours within one piece, but not as two pieces, such as two canopies.
 TEST(Contact, PiecesThatAreCutNextToEachOtherTouch) {
-  Mesh mesh = two_sheets(spacing);
+  Mesh mesh = two_sheets(node_spacing);
   const auto energy = [&] {
     const ClothPtr cloth = make_cloth(mesh, with_contact(mesh));
     ClothState state = start_state(*cloth);
-    set_positions(state, *cloth, lowered(mesh, 0.7 * spacing));
+    set_positions(state, *cloth, lowered(mesh, 0.7 * node_spacing));
     return contact_report(*cloth, state).energy;
   };
   EXPECT_EQ(energy(), 0);
@@ -69,10 +69,10 @@ TEST(Contact, PiecesThatAreCutNextToEachOtherTouch) {
 }
 
 TEST(Contact, TheForceIsMinusTheGradientOfTheEnergy) {
-  const Mesh mesh = two_sheets(5 * spacing);
+  const Mesh mesh = two_sheets(5 * node_spacing);
   const ClothPtr touching = make_cloth(mesh, with_contact(mesh)), free = make_cloth(mesh);
   ClothState state = start_state(*touching);
-  const std::vector<Vec3> x = lowered(mesh, 4.5 * spacing);
+  const std::vector<Vec3> x = lowered(mesh, 4.5 * node_spacing);
   set_positions(state, *touching, x);
   EXPECT_GT(contact_report(*touching, state).pairs, 100);
   EXPECT_GT(elastic_energy(*touching, state), 0);
@@ -101,14 +101,14 @@ TEST(Contact, TheForceIsMinusTheGradientOfTheEnergy) {
 }
 
 TEST(Contact, TheFoldedStartHasNoForce) {
-  const Mesh mesh = rectangle(9, 30, spacing);
+  const Mesh mesh = rectangle(9, 30, node_spacing);
   ClothOptions options = with_contact(mesh);
-  options.contact->folded = folded_over(mesh, 0.1 * spacing);
+  options.contact->folded = folded_over(mesh, 0.1 * node_spacing);
   const ClothPtr cloth = make_cloth(mesh, options);
   ClothState state = start_state(*cloth);
   set_positions(state, *cloth, options.contact->folded);
   EXPECT_LT(contact_report(*cloth, state).energy, 1e-20);
-  set_positions(state, *cloth, folded_over(mesh, 0.05 * spacing));
+  set_positions(state, *cloth, folded_over(mesh, 0.05 * node_spacing));
   EXPECT_GT(contact_report(*cloth, state).energy, 1e-9) << "a little nearer";
 }
 
@@ -118,7 +118,7 @@ struct Collision {
 
 /// Thrown onto each other at `speed` down and `across` it, for as long as they would take to pass each other twice.
 Collision thrown(bool contact, double speed, double across, double friction = 0.2) {
-  const Mesh mesh = two_sheets(4 * spacing);
+  const Mesh mesh = two_sheets(4 * node_spacing);
   const ClothPtr cloth = make_cloth(mesh, contact ? with_contact(mesh, friction) : ClothOptions{});
   ClothState state = start_state(*cloth);
   std::vector<Vec3> v(mesh.node_count());
@@ -129,7 +129,7 @@ Collision thrown(bool contact, double speed, double across, double friction = 0.
   ThreadTeam team(2);
   StepRecord record;
   const double dt = 0.3 * stability_limit(*cloth, state).stable_step;
-  const int blocks = 40, steps = static_cast<int>(8 * spacing / speed / dt / blocks);
+  const int blocks = 40, steps = static_cast<int>(8 * node_spacing / speed / dt / blocks);
   for (int block = 0; block < blocks; ++block) {
     step(state, *cloth, {}, dt, steps, team, &record);
     result.pierced = std::max(result.pierced, pierced_share(mesh, positions(state, *cloth)));
@@ -147,11 +147,11 @@ TEST(Contact, SheetsThatAreThrownOntoEachOtherDoNotPass) {
   for (const double speed : {2.0, 10.0, 20.0}) {
     const Collision met = thrown(true, speed, 0);
     EXPECT_EQ(met.pierced, 0) << speed;
-    EXPECT_GT(met.gap, 0.5 * spacing) << speed;
+    EXPECT_GT(met.gap, 0.5 * node_spacing) << speed;
     EXPECT_LT(met.momentum_error, 1e-12);
     EXPECT_NEAR(met.energy_after + met.damped, met.energy_before, 0.01 * met.energy_before) << speed;
   }
-  EXPECT_LT(thrown(false, 10, 0).gap, -3 * spacing) << "without contact they do";
+  EXPECT_LT(thrown(false, 10, 0).gap, -3 * node_spacing) << "without contact they do";
 }
 
 TEST(Contact, FrictionTakesFromTheSlipAndTheBalanceCountsIt) {
@@ -164,8 +164,8 @@ TEST(Contact, FrictionTakesFromTheSlipAndTheBalanceCountsIt) {
 // Dashpots that absorb the work of the pressure while layers are compressed: a kick of contact changes their
 // velocities, and their energy in the previous step uses the velocities before it (error 0.4 % otherwise, 0.1 % so).
 TEST(Contact, DamperEnergyIsCountedUpToEveryKick) {
-  Mesh mesh = two_sheets(4 * spacing);
-  const std::vector<Vec3> near = lowered(mesh, 3.4 * spacing);
+  Mesh mesh = two_sheets(4 * node_spacing);
+  const std::vector<Vec3> near = lowered(mesh, 3.4 * node_spacing);
   const int lower = mesh.patches[1].first_node, columns = mesh.patches[1].columns;
   mesh.laws.push_back({{1e-6}});
   mesh.parts.push_back("dashpot");
@@ -201,7 +201,7 @@ TEST(Contact, AnyNumberOfThreadsGivesTheSameBits) {
   for (const int threads : {1, 2, 3}) {
     ThreadTeam team(threads);
     ClothState state = start_state(*cloth);
-    set_positions(state, *cloth, folded_over(mesh, 0.3 * spacing));
+    set_positions(state, *cloth, folded_over(mesh, 0.3 * node_spacing));
     EXPECT_GT(contact_report(*cloth, state).pairs, 5);
     StepRecord record;
     step(state, *cloth, {}, 0.2 * stability_limit(*cloth, state).stable_step, 100, team, &record);
@@ -219,10 +219,10 @@ TEST(Contact, AnyNumberOfThreadsGivesTheSameBits) {
 }
 
 TEST(Contact, TheListOfAnEarlierCallDoesNotChangeTheMotion) {
-  const Mesh mesh = two_sheets(5 * spacing);
+  const Mesh mesh = two_sheets(5 * node_spacing);
   const ClothPtr cloth = make_cloth(mesh, with_contact(mesh));
   ClothState start = start_state(*cloth);
-  set_positions(start, *cloth, lowered(mesh, 4.5 * spacing));
+  set_positions(start, *cloth, lowered(mesh, 4.5 * node_spacing));
   const double dt = 0.2 * stability_limit(*cloth, start).stable_step;
   ThreadTeam team(1);
   const auto stepped = [&](StepMemory& memory, StepRecord& record) {
@@ -243,7 +243,7 @@ TEST(Contact, TheListOfAnEarlierCallDoesNotChangeTheMotion) {
 }
 
 TEST(Contact, AStepIsNoLongerThanItAllows) {
-  const Mesh mesh = two_sheets(5 * spacing);
+  const Mesh mesh = two_sheets(5 * node_spacing);
   ClothOptions options = with_contact(mesh);
   const ClothPtr soft = make_cloth(mesh, options);
   options.contact->pressure = 1e9;
@@ -256,24 +256,25 @@ TEST(Contact, AStepIsNoLongerThanItAllows) {
 }
 
 TEST(Pierced, CountsTheEdgesThatGoThroughClothElsewhere) {
-  const Mesh mesh = two_sheets(5 * spacing);
+  const Mesh mesh = two_sheets(5 * node_spacing);
   EXPECT_EQ(pierced_share(mesh, mesh.start), 0);
   // The upper sheet is turned up and put through the lower one, between two of its columns.
   std::vector<Vec3> x = mesh.start;
   const int first = mesh.patches[1].first_node;
-  for (int i = first; i < mesh.node_count(); ++i) x[i] = {0.043, x[i].y + 0.2 * spacing, x[i].x - 0.053};
+  for (int i = first; i < mesh.node_count(); ++i) x[i] = {0.043, x[i].y + 0.2 * node_spacing, x[i].x - 0.053};
   // Of the upper sheet 13 edges along z; of the lower one those along x whose y is within it: 12.
   const double edges = 2.0 * (14 * 15 + 12 * 13);
   EXPECT_NEAR(pierced_share(mesh, x), (13 + 12) / edges, 1e-12);
 }
 
 TEST(Pierced, IgnoresCellsWithinThreeEdges) {
-  const Mesh mesh = rectangle(5, 30, spacing);
+  const Mesh mesh = rectangle(5, 30, node_spacing);
   std::vector<Vec3> near = mesh.start, far = mesh.start;
   const auto bend = [&](std::vector<Vec3>& x, int from) {
     for (int i = 0; i < mesh.node_count(); ++i)  // back through the sheet
       if (i % 30 >= from)
-        x[i] = {mesh.start[10].x + 0.4 * spacing, x[i].y + 0.2 * spacing, (i % 30 - from - 0.5) * spacing};
+        x[i] = {mesh.start[10].x + 0.4 * node_spacing, x[i].y + 0.2 * node_spacing,
+                (i % 30 - from - 0.5) * node_spacing};
   };
   bend(near, 12);
   bend(far, 20);

@@ -12,10 +12,10 @@ namespace {
 
 using namespace testing;
 
-constexpr double stiffness = 5000;  // E A [N]
+constexpr double cord_stiffness = 5000;  // E A [N]
 
 Drawstring string_through(std::vector<int> rings, double rest_length, double damping = 0) {
-  return {std::move(rings), rest_length, {{stiffness}, 0}, damping};
+  return {std::move(rings), rest_length, {{cord_stiffness}, 0}, damping};
 }
 
 /// Bare masses on a circle, and a string round them.
@@ -89,9 +89,9 @@ TEST(Drawstring, TheForceIsMinusTheGradientOfTheEnergy) {
                         (energy(node, {0, 0, h}) - energy(node, {0, 0, -h})) / (2 * h)};
     const Vec3 force = with_string[node] - springs[node];
     pulled = std::max(pulled, norm(force));
-    EXPECT_LT(norm(force + gradient), 1e-5 * stiffness) << node;
+    EXPECT_LT(norm(force + gradient), 1e-5 * cord_stiffness) << node;
   }
-  EXPECT_GT(pulled, 0.05 * stiffness);
+  EXPECT_GT(pulled, 0.05 * cord_stiffness);
 }
 
 TEST(Drawstring, ItsForcesAndMomentsSumToZeroWhileItSlides) {
@@ -124,9 +124,9 @@ TEST(Drawstring, ARingPulledOutwardIsInEquilibriumWithItsTension) {
   for (const int count : {3, 8, 18}) {
     constexpr double load = 30, length = 2, mass = 0.01;
     const double sine = std::sin(std::numbers::pi / count), tension = load / (2 * sine);
-    const double radius = length * (1 + tension / stiffness) / (2 * count * sine);
-    const double breathing = 2 * sine * std::sqrt(count * stiffness / length / mass);  // [1/s]
-    const double damping = 0.5 * stiffness / length / breathing;
+    const double radius = length * (1 + tension / cord_stiffness) / (2 * count * sine);
+    const double breathing = 2 * sine * std::sqrt(count * cord_stiffness / length / mass);  // [1/s]
+    const double damping = 0.5 * cord_stiffness / length / breathing;
     const Mesh mesh = hoop(count, 0.98 * radius, length, mass, damping);
     const ClothPtr cloth = make_cloth(mesh);
     ClothState state = start_state(*cloth);
@@ -145,7 +145,7 @@ TEST(Drawstring, TheStableStepIsThatOfARingThatBreathes) {
   const double sine = std::sin(std::numbers::pi / count), length = 2 * count * radius * sine;
   const Mesh mesh = hoop(count, radius, length, mass);
   const ClothPtr cloth = make_cloth(mesh);
-  const double breathing = 2 * sine * std::sqrt(count * stiffness / length / mass);
+  const double breathing = 2 * sine * std::sqrt(count * cord_stiffness / length / mass);
   EXPECT_NEAR(stability_limit(*cloth, start_state(*cloth)).stable_step, 2 / breathing, 1e-9 / breathing);
 }
 
@@ -253,7 +253,7 @@ TEST(Drawstring, ARelaxationFindsTheRingThatItsAnchorsAndItsStringHold) {
   options.least_load = 100;
   EXPECT_TRUE(relax(state, *cloth, {}, options, team).converged);
   const double sine = std::sin(std::numbers::pi / count);
-  const double tension = stiffness * (drawn_length(*cloth, state) / 2.8 - 1);
+  const double tension = cord_stiffness * (drawn_length(*cloth, state) / 2.8 - 1);
   const double radius = norm(positions(state, *cloth)[3]);
   EXPECT_GT(tension, 50);
   EXPECT_NEAR(2 * tension * sine, anchor * ((0.7 - radius) / anchor_length - 1), 1e-5 * tension);

@@ -12,7 +12,7 @@
 namespace ripstop {
 namespace {
 
-constexpr double block = 2e-3, last_row = 0.4;  // [s]
+constexpr double block_length = 2e-3, last_row = 0.4;  // [s]
 
 /// Of a canopy that is folded until `begin`, is largest at `begin` + 0.1 s, and then contracts by `contracts` in 0.1 s.
 double mouth_at(double time, double begin, double contracts = 0) {
@@ -24,8 +24,8 @@ double mouth_at(double time, double begin, double contracts = 0) {
 
 std::vector<CanopyRow> rows_of_two(double delay, double contracts = 0) {
   std::vector<CanopyRow> rows;
-  for (int i = 1; i * block < last_row * (1 + 1e-9); ++i) {
-    const double time = i * block;
+  for (int i = 1; i * block_length < last_row * (1 + 1e-9); ++i) {
+    const double time = i * block_length;
     for (int k = 0; k < 2; ++k) {
       const double mouth = mouth_at(time, k == 0 ? 0 : delay, k == 0 ? 0 : contracts);
       rows.push_back({time, k + 1.0, 20, 180.0 * k, 100 * mouth * (k + 1), mouth, 0.3});
@@ -40,7 +40,7 @@ TEST(ClusterOpenings, ADelayedCanopyFillsLaterAndAllTimesAreFromTheStart) {
   EXPECT_NEAR(both.canopies[0].filling_time.value(), 0.1, 1e-6);
   EXPECT_NEAR(both.canopies[1].filling_time.value(), 0.15, 1e-6);
   EXPECT_NEAR(both.filling_difference.value(), 0.05, 1e-6);
-  EXPECT_NEAR(both.peak_difference, 0.05, 1.01 * block);
+  EXPECT_NEAR(both.peak_difference, 0.05, 1.01 * block_length);
   EXPECT_EQ(both.canopies[0].delay.value(), 0);
   EXPECT_EQ(both.canopies[1].delay.value(), 0.05);
   EXPECT_FALSE(summarise_openings(rows_of_two(0), 2, 0.005).canopies[0].delay);

@@ -14,12 +14,4 @@ inline int cloth_nodes(const Mesh& mesh) {
   return count;
 }
 
-/// As cut [m2].
-inline double cloth_area(const Mesh& mesh) {
-  double area = 0;
-  for (const Patch& patch : mesh.patches)
-    area = std::accumulate(patch.cell_area.begin(), patch.cell_area.end(), area);
-  return area;
-}
-
 }  // namespace ripstop

@@ -17,6 +17,7 @@
 #include "ripstop/mesh/each_spring.h"
 #include "ripstop/parachute/build.h"
 #include "ripstop/parachute/disk_gap_band.h"
+#include "ripstop/parachute/own_mesh.h"
 
 namespace ripstop {
 namespace {

@@ -18,6 +18,7 @@
 #include "ripstop/mesh/each_spring.h"
 #include "ripstop/parachute/annular.h"
 #include "ripstop/parachute/cut.h"
+#include "ripstop/parachute/own_mesh.h"
 #include "ripstop/parachute/ringsail.h"
 #include "ripstop/parachute/spherical.h"
 

@@ -8,6 +8,7 @@
 
 #include "../small_case.h"
 #include "ripstop/case/assemble.h"
+#include "ripstop/parachute/own_mesh.h"
 
 namespace ripstop {
 namespace {
@@ -23,13 +24,6 @@ Sizes meshes_of(Case given) {
   given.parachute = in_size(given.parachute, ratio);
   sizes.small = parachute_mesh(resolve(given));
   return sizes;
-}
-
-double cloth_area_of(const CanopyMesh& mesh) {
-  double area = 0;
-  for (const Patch& patch : mesh.patches)
-    for (const double cut : patch.cell_area) area += cut;
-  return area;
 }
 
 TEST(DesignInSize, KeepsTheTopologyAndTheLawsOfClothAndLines) {
@@ -51,7 +45,7 @@ TEST(DesignInSize, KeepsTheTopologyAndTheLawsOfClothAndLines) {
               1e-6 * like.scale * large.laws[like.law].tangent(0));
   EXPECT_NEAR(small.patches[0].law[along_row].tangent(0) / large.patches[0].law[along_row].tangent(0), 1,
               1e-9);
-  EXPECT_NEAR(cloth_area_of(small) / cloth_area_of(large), ratio * ratio, 1e-9);
+  EXPECT_NEAR(cloth_area(small) / cloth_area(large), ratio * ratio, 1e-9);
   EXPECT_EQ(in_size(given.parachute, ratio).lines.length_m, ratio);
 }
 

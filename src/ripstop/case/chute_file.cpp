@@ -22,7 +22,7 @@ using std::numbers::pi;
 using Names = std::map<std::string, double>;
 
 /// A value of the file with its place, for messages.
-struct Node {
+struct Entry {
   const Json* json;
   std::string place;
   const std::string* file;
@@ -31,20 +31,20 @@ struct Node {
     throw Error(ExitCode::bad_data, fmt::format("{}: {}: {}", *file, place.empty() ? "file" : place, what));
   }
   bool has(const std::string& key) const { return json->is_object() && json->contains(key); }
-  Node at(const std::string& key) const {
+  Entry at(const std::string& key) const {
     if (!json->is_object()) fail("must be an object {...}");
     if (!json->contains(key)) fail(fmt::format("the key \"{}\" is missing", key));
     return {&json->at(key), place.empty() ? key : place + "." + key, file};
   }
-  std::vector<Node> items() const {
+  std::vector<Entry> items() const {
     if (!json->is_array()) fail("must be a list [...]");
-    std::vector<Node> all;
+    std::vector<Entry> all;
     for (std::size_t i = 0; i < json->size(); ++i)
       all.push_back({&(*json)[i], fmt::format("{}[{}]", place, i), file});
     return all;
   }
-  std::vector<Node> items(std::size_t count) const {
-    std::vector<Node> all = items();
+  std::vector<Entry> items(std::size_t count) const {
+    std::vector<Entry> all = items();
     if (all.size() != count) fail(fmt::format("must be a list of {} values, not {}", count, all.size()));
     return all;
   }
@@ -65,7 +65,7 @@ struct Node {
 
 class Reader {
  public:
-  Reader(const Node& root) : root_(root) {}
+  Reader(const Entry& root) : root_(root) {}
 
   ChuteFile read() {
     known(root_,
@@ -73,7 +73,7 @@ class Reader {
            "global_seam_allowance", "test_color", "input_values", "parameter_values", "chute_sections"});
     file_.name = root_.at("name").text();
     if (root_.has("instructions"))
-      for (const Node& step : root_.at("instructions").items()) file_.instructions.push_back(step.text());
+      for (const Entry& step : root_.at("instructions").items()) file_.instructions.push_back(step.text());
     for (const char* key : {"gores", "diameter", "fabric"})
       if (root_.has(key))
         file_.not_mapped.push_back(
@@ -84,14 +84,14 @@ class Reader {
           fmt::format("global_seam_allowance = {} m: openchute cuts by the allowances of each section",
                       root_.at("global_seam_allowance").number()));
     read_names();
-    for (const Node& section : root_.at("chute_sections").items()) read_section(section);
+    for (const Entry& section : root_.at("chute_sections").items()) read_section(section);
     if (file_.sections.empty())
       root_.at("chute_sections").fail("there is no section with gores; the design needs at least one");
     return std::move(file_);
   }
 
  private:
-  void known(const Node& node, const std::set<std::string>& keys) {
+  void known(const Entry& node, const std::set<std::string>& keys) {
     if (!node.json->is_object()) node.fail("must be an object {...}");
     for (const auto& [key, value] : node.json->items())
       if (!keys.contains(key))
@@ -99,7 +99,7 @@ class Reader {
             fmt::format("{}{}{}: unknown key, ignored", node.place, node.place.empty() ? "" : ".", key));
   }
 
-  double formula(const Node& node) {
+  double formula(const Entry& node) {
     const std::string text = node.text();
     try {
       const Evaluation result = evaluate(text, names_);
@@ -112,7 +112,7 @@ class Reader {
   }
 
   /// The number that openchute wrote next to a formula when it last drew the section.
-  void compare(const Node& stored, double value) {
+  void compare(const Entry& stored, double value) {
     if (!stored.json->is_number()) stored.fail("must be a number");
     const double before = stored.json->get<double>();
     if (std::abs(before - value) > 1e-6 * std::max(1.0, std::abs(value)))
@@ -121,7 +121,7 @@ class Reader {
                       stored.place, before, value));
   }
 
-  void define(const Node& node, const std::string& id, double value) {
+  void define(const Entry& node, const std::string& id, double value) {
     const bool good = !id.empty() && std::isalpha(static_cast<unsigned char>(id[0])) &&
                       std::all_of(id.begin(), id.end(), [](char c) {
                         return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
@@ -136,16 +136,16 @@ class Reader {
   void read_names() {
     names_ = {{"m", 1},   {"mm", 0.001}, {"yd", 0.9144},         {"ft", 0.3048},   {"inch", 0.0254},
               {"rad", 1}, {"pi", pi},    {"e", std::numbers::e}, {"deg", pi / 180}};
-    for (const Node& input : root_.at("input_values").items()) {
+    for (const Entry& input : root_.at("input_values").items()) {
       known(input, {"id", "description", "value", "unit", "range", "default_value"});
       const std::string id = input.at("id").text();
       const double value = input.at("value").number();  // SI whatever the unit: that is for display
       define(input.at("id"), id, value);
       file_.inputs.emplace_back(id, value);
     }
-    const std::vector<Node> parameters = root_.at("parameter_values").items();
+    const std::vector<Entry> parameters = root_.at("parameter_values").items();
     check_order(parameters);
-    for (const Node& parameter : parameters) {
+    for (const Entry& parameter : parameters) {
       known(parameter, {"id", "expression", "display_unit"});
       const std::string id = parameter.at("id").text();
       const double value = formula(parameter.at("expression"));
@@ -155,15 +155,15 @@ class Reader {
   }
 
   /// Formulas may refer only to parameters above them.
-  void check_order(const std::vector<Node>& parameters) {
+  void check_order(const std::vector<Entry>& parameters) {
     std::map<std::string, std::size_t> index;
     std::vector<std::vector<std::string>> uses;
-    for (const Node& parameter : parameters) {
+    for (const Entry& parameter : parameters) {
       index.emplace(parameter.at("id").text(), uses.size());
       try {
         uses.push_back(names_in(parameter.at("expression").text()));
       } catch (const Error& error) {
-        const Node expression = parameter.at("expression");
+        const Entry expression = parameter.at("expression");
         expression.fail(fmt::format("{}, {}", quoted(expression.text()), error.what()));
       }
     }
@@ -182,7 +182,7 @@ class Reader {
       const std::string id = parameters[i].at("id").text();
       for (const std::string& name : uses[i]) {
         if (!index.contains(name) || index.at(name) < i || names_.contains(name)) continue;
-        const Node expression = parameters[i].at("expression");
+        const Entry expression = parameters[i].at("expression");
         path = {id}, visited.clear();
         if (name == id) expression.fail(fmt::format("\"{}\" refers to itself", id));
         if (leads_to(name, id))
@@ -196,7 +196,7 @@ class Reader {
     }
   }
 
-  void read_section(const Node& node) {
+  void read_section(const Entry& node) {
     known(node, {"section_type", "gores", "fabric", "seam_allowance", "corner_cutout", "colors",
                  "modifier_first", "modifier_last", "cuts", "fullness"});
     ChuteSection section;
@@ -207,33 +207,33 @@ class Reader {
           fmt::format("{}: 0 gores: no cloth is cut; the section represents an opening", node.place));
       return;
     }
-    const Node type = node.at("section_type");
+    const Entry type = node.at("section_type");
     known(type, {"Circular", "Polygonal"});
     if (type.has("Circular")) {
       section.circular = true;
-      const Node line = type.at("Circular");
+      const Entry line = type.at("Circular");
       known(line, {"line", "expressions"});
       section.points = line_points(line);
     } else if (type.has("Polygonal")) {
       known(type.at("Polygonal"), {"objects"});
-      for (const Node& object : type.at("Polygonal").at("objects").items()) add_object(object, section);
+      for (const Entry& object : type.at("Polygonal").at("objects").items()) add_object(object, section);
     } else {
       type.fail("must be \"Circular\" or \"Polygonal\"");
     }
     finish(node, section);
-    const Node fabric = node.at("fabric").at("selected_fabric");
+    const Entry fabric = node.at("fabric").at("selected_fabric");
     section.fabric = fabric.at("name").text();
     section.areal_density = 1e-3 * fabric.at("area_density_gsm").number();
     if (!(section.areal_density > 0)) fabric.at("area_density_gsm").fail("must be above 0");
-    const std::vector<Node> allowance = node.at("seam_allowance").items(4);
+    const std::vector<Entry> allowance = node.at("seam_allowance").items(4);
     for (int i = 0; i < 4; ++i) section.seam_allowance[i] = allowance[i].number();
     read_extras(node, section);
     file_.sections.push_back(std::move(section));
   }
 
-  void read_extras(const Node& node, ChuteSection& section) {
+  void read_extras(const Entry& node, ChuteSection& section) {
     if (node.has("fullness")) {
-      const std::vector<Node> fullness = node.at("fullness").items(2);
+      const std::vector<Entry> fullness = node.at("fullness").items(2);
       const double first = fullness[0].number(), last = fullness[1].number();
       if (first < 0) fullness[0].fail("fullness must be at least 0");
       if (last < 0) fullness[1].fail("fullness must be at least 0");
@@ -259,12 +259,12 @@ class Reader {
                                  ".corner_cutout: ripstop pattern mitres the corners of the allowances");
   }
 
-  std::vector<MeridianPoint> line_points(const Node& node) {
-    const std::vector<Node> formulas = node.at("expressions").items(4);
+  std::vector<MeridianPoint> line_points(const Entry& node) {
+    const std::vector<Entry> formulas = node.at("expressions").items(4);
     double value[4];
     for (int i = 0; i < 4; ++i) value[i] = formula(formulas[i]);
     for (int i = 0; i < 4; ++i) {
-      const Node line = node.at("line");
+      const Entry line = node.at("line");
       compare(line.at(i < 2 ? "begin" : "end").items(2)[i % 2], value[i]);
     }
     return {{value[0], value[1]}, {value[2], value[3]}};
@@ -272,15 +272,15 @@ class Reader {
 
   // Angles in radians; the ellipse turned counterclockwise about its centre. As openchute has it: the start
   // angle, and a stop angle beyond a full turn, count modulo a full turn.
-  std::vector<MeridianPoint> arc_points(const Node& node) {
+  std::vector<MeridianPoint> arc_points(const Entry& node) {
     known(node, {"ellipse", "start_angle", "stop_angle", "rotation", "radius_x", "radius_y", "center"});
-    const Node stored = node.at("ellipse");
+    const Entry stored = node.at("ellipse");
     std::map<std::string, double> value;
     for (const char* key : {"start_angle", "stop_angle", "rotation", "radius_x", "radius_y"}) {
       value[key] = formula(node.at(key));
       compare(stored.at(key), value[key]);
     }
-    const std::vector<Node> center = node.at("center").items(2);
+    const std::vector<Entry> center = node.at("center").items(2);
     const double x = formula(center[0]), y = formula(center[1]);
     compare(stored.at("center").items(2)[0], x);
     compare(stored.at("center").items(2)[1], y);
@@ -300,10 +300,10 @@ class Reader {
     return points;
   }
 
-  std::vector<MeridianPoint> list_points(const Node& node) {
+  std::vector<MeridianPoint> list_points(const Entry& node) {
     known(node, {"geo", "point_list", "scale_x", "scale_y", "offset", "scale_x_f", "scale_y_f", "offset_f"});
     const double scale_x = formula(node.at("scale_x")), scale_y = formula(node.at("scale_y"));
-    const std::vector<Node> offset = node.at("offset").items(2);
+    const std::vector<Entry> offset = node.at("offset").items(2);
     const double dx = formula(offset[0]), dy = formula(offset[1]);
     std::vector<MeridianPoint> points;
     const std::string text = node.at("point_list").text();
@@ -325,7 +325,7 @@ class Reader {
     return points;
   }
 
-  void add_object(const Node& node, ChuteSection& section) {
+  void add_object(const Entry& node, ChuteSection& section) {
     known(node, {"Line", "EllipseArc", "PointList"});
     std::vector<MeridianPoint> points;
     if (node.has("Line")) {
@@ -350,7 +350,7 @@ class Reader {
   }
 
   /// Without points that repeat, which also end an arc on the axis a hair to its left.
-  static void finish(const Node& node, ChuteSection& section) {
+  static void finish(const Entry& node, ChuteSection& section) {
     std::vector<MeridianPoint> kept;
     for (MeridianPoint p : section.points) {
       if (std::abs(p.r) < 1e-9) p.r = 0;
@@ -366,7 +366,7 @@ class Reader {
     section.points = std::move(kept);
   }
 
-  Node root_;
+  Entry root_;
   ChuteFile file_;
   Names names_;
 };

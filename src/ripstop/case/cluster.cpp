@@ -10,6 +10,7 @@
 #include "ripstop/case/bodies.h"
 #include "ripstop/case/case.h"
 #include "ripstop/case/settings.h"
+#include "ripstop/core/angle.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/toml/fields.h"
 #include "ripstop/core/toml/problem.h"
@@ -18,7 +19,6 @@
 namespace ripstop::inline cases {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 // Depth of the inflated canopy to its widest part, in inflated diameters (about).
 constexpr double widest_part = 0.25;
 // Inflated over the inflated diameter of the domain, which is a generous one: canopies closer than this do touch.

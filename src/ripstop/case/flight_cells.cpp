@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "ripstop/case/bodies.h"
 #include "ripstop/case/resolve.h"
+#include "ripstop/core/angle.h"
 #include "ripstop/flow/flow_grid.h"
 
 namespace ripstop::inline cases {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double growth = 1.2;  // of the cells outside of the core: a coarse grid in a wide box
 constexpr int multiple = 4;     // of cells along an axis, for the multigrid
 // The box contains the payload with its bodies at this angle of the lines from its axis (assumed) [deg].

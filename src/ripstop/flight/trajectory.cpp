@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 
+#include "ripstop/core/angle.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/positive.h"
 #include "ripstop/flight/atmosphere.h"
@@ -15,8 +15,6 @@
 
 namespace ripstop::inline flight {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 struct Motion {
   double x = 0, h = 0, s = 0;  // over ground, height, way through the air [m]

@@ -1,12 +1,12 @@
 #include "ripstop/flow/projections.h"
 
 #include <cmath>
-#include <numbers>
+
+#include "ripstop/core/angle.h"
 
 namespace ripstop::inline flow {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double aligned = 1e-9;  // sine of the angle below which axis and wind have no plane
 
 Vec3 unit(Vec3 v) {

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "ripstop/core/angle.h"
 #include "ripstop/core/error.h"
 #include "ripstop/fsi/summary.h"
 
 namespace ripstop::inline fsi {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// Mean and standard deviation over time.
 struct OverTime {

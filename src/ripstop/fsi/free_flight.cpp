@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "ripstop/core/angle.h"
 #include "ripstop/core/quantity_error.h"
 #include "ripstop/flight/point_mass.h"
 #include "ripstop/fsi/lines_apart.h"
@@ -15,8 +16,6 @@
 
 namespace ripstop::inline fsi {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 // The box follows the canopy as a critically damped spring would, at this rate times speed over size of the canopy. A
 // swing takes some ten of these times, and the canopy stays within a tenth of its displacement.

@@ -1,14 +1,12 @@
 #include "ripstop/fsi/payload.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "ripstop/core/angle.h"
 #include "ripstop/flight/point_mass.h"
 
 namespace ripstop::inline fsi {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// The acceleration that the equation of motion gives, along the path and across it.
 struct AlongPath {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "ripstop/core/angle.h"
 #include "ripstop/core/toml/fields.h"
 #include "ripstop/core/toml/problem.h"
 #include "ripstop/parachute/design.h"
@@ -14,8 +15,6 @@
 namespace ripstop::inline parachute {
 
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 double arc_of_gore(const Ringsail& canopy) {
   const double half_angle = canopy.half_angle_deg * degree;

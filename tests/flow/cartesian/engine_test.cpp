@@ -13,6 +13,7 @@
 #include "ripstop/flow/bodies.h"
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/steady.h"
+#include "tests/flow/cartesian/equal_runs.h"
 
 namespace ripstop {
 namespace {
@@ -24,20 +25,6 @@ FlowProblem open_box(int nx, int ny, int nz, double speed) {
   problem.bodies.push_back(
       porous_body({cut_cells(problem.grid, rigid_disk_gap_band({0, 0, 2})), 65.98, 37.45}));
   return problem;
-}
-
-CartesianSettings with_threads(int threads) {
-  CartesianSettings settings;
-  settings.threads = threads;
-  return settings;
-}
-
-bool same_bits(const FlowField& a, const FlowField& b) {
-  return a.pressure.size() == b.pressure.size() &&
-         std::memcmp(a.pressure.data(), b.pressure.data(), a.pressure.size() * sizeof(double)) == 0 &&
-         std::memcmp(a.velocity.data(), b.velocity.data(), a.velocity.size() * sizeof(Vec3)) == 0 &&
-         a.porous_force == b.porous_force && a.momentum_deficit.z == b.momentum_deficit.z &&
-         a.last.residual_p == b.last.residual_p && a.last.residual_u == b.last.residual_u;
 }
 
 TEST(CartesianEngine, AnEmptyBoxKeepsItsUniformStream) {

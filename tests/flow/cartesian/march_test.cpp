@@ -15,18 +15,12 @@
 #include "ripstop/flow/cartesian/cartesian.h"
 #include "ripstop/flow/cartesian/solver.h"
 #include "ripstop/flow/cartesian/time_rows.h"
+#include "tests/flow/cartesian/equal_runs.h"
 
 namespace ripstop {
 namespace {
 
 using std::numbers::pi;
-
-CartesianSettings with_threads(int threads, SmallEddies small_eddies = SmallEddies::wale) {
-  CartesianSettings settings;
-  settings.threads = threads;
-  settings.small_eddies = small_eddies;
-  return settings;
-}
 
 /// A disk in a box with graded cells; `linear` is the law of its cloth [Pa s/m].
 FlowProblem disk_in_a_box(double linear, Sides sides) {
@@ -37,12 +31,6 @@ FlowProblem disk_in_a_box(double linear, Sides sides) {
   problem.outlet = Outlet::still_air;
   problem.bodies = {sheet_body(disk(1, {0.01, 0.02, 2.52}), {linear, 0})};
   return problem;
-}
-
-bool same_bits(const FlowField& a, const FlowField& b) {
-  return std::memcmp(a.pressure.data(), b.pressure.data(), a.pressure.size() * sizeof(double)) == 0 &&
-         std::memcmp(a.velocity.data(), b.velocity.data(), a.velocity.size() * sizeof(Vec3)) == 0 &&
-         a.porous_force == b.porous_force;
 }
 
 TEST(March, AUniformStreamStaysUniform) {

@@ -5,17 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "ripstop/canopy/shape.h"
 #include "ripstop/canopy/stress.h"
 #include "ripstop/case/cluster.h"
+#include "ripstop/core/angle.h"
 #include "ripstop/core/words.h"
 
 namespace ripstop::inline run {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double largest_force_angle = 2;    // [deg]
 constexpr double largest_difference = 0.05;  // between riser loads
 
