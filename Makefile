@@ -132,6 +132,8 @@ bench: check-deps  ## Run the benchmarks, some four hours; their figures are in 
 	@build-check/bench/bench_settling runs/settling 600 50 | tee docs/tables/settling.md
 	@build-check/bench/bench_attack plate 12 0 30 45 60 | tee docs/tables/plates.md
 	@build-check/bench/bench_attack between-walls 2.5 8 0 30 45 60 | tee docs/tables/plate.md
+	@build-check/bench/bench_behind 6 wake 2 4 6 8 12 | tee docs/tables/behind.md
+	@build-check/bench/bench_behind 10 pair 1.25 1.5 2 3 6 | tee docs/tables/pair.md
 	@build-check/bench/bench_sheet 28 4 | tee docs/tables/sheet-shifts.md
 	@build-check/bench/bench_cloth
 	@build-check/bench/bench_relaxation | tee docs/tables/relaxation.md
