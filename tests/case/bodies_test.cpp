@@ -56,6 +56,15 @@ TEST(Bodies, TheDefaultDomainAndItsCoreBeginUpstreamOfThemWithCellsNoLarger) {
   EXPECT_GE(cell(with) / cell(without), 0.85);
 }
 
+TEST(Bodies, ACoreOfAnyGivenSizeBeginsHalfAWidthUpstreamOfThem) {
+  Case given = behind_a_cylinder(1.5);
+  for (const double more : {0.0, 0.3}) {
+    given.flow.core.size_m = resolve(checked(behind_a_cylinder(1.5))).flow().core.size_m + Vec3{0, 0, more};
+    const Settings resolved = resolve(checked(given));
+    EXPECT_NEAR(resolved.flow().core.start_m, resolved.flow().canopy_position_m - 2.5 - 0.1, 1e-9) << more;
+  }
+}
+
 TEST(Bodies, WithoutADistanceHangAtTheEndOfTheRiser) {
   Case given = behind_a_cylinder(1);
   given.bodies["rocket"].trailing_distance_m.reset();

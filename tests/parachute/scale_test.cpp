@@ -49,6 +49,23 @@ TEST(DesignInSize, KeepsTheTopologyAndTheLawsOfClothAndLines) {
   EXPECT_EQ(in_size(given.parachute, ratio).lines.length_m, ratio);
 }
 
+// Lines of 1 m have 20 segments of 0.05 m, and those of 0.8 m as many of 0.04 m; a riser of 0.6 m has 12 and not 11.
+TEST(DesignInSize, LinesHaveAsManySegmentsWithoutLossByRounding) {
+  Case given = flat_circular_case(1, 900, 20);
+  given.parachute.mesh.line_segment_m = 0.05;
+  for (const double length : {0.6, 0.7, 1.0}) {
+    given.parachute.riser.length_m = length;
+    const Case complete = checked(given);
+    const CanopyMesh large = parachute_mesh(resolve(complete));
+    EXPECT_EQ(large.rigging.riser_springs.size(), std::lround(length / 0.05));
+    for (const double factor : {0.75, 0.8, 0.82, 0.85, 0.9, 0.92}) {
+      Case small = complete;
+      small.parachute = in_size(complete.parachute, factor);
+      EXPECT_EQ(parachute_mesh(resolve(small)).node_count(), large.node_count()) << factor;
+    }
+  }
+}
+
 TEST(DesignInSize, AGivenReferenceAreaIsSmallerByTheSquare) {
   Design design = flat_circular_case(1, 900, 20).parachute;
   design.nominal_area_m2 = 2;

@@ -71,8 +71,10 @@ std::string by_model(const Words<Value>& words, Value sheet, Value paper) {
 /// Keys of [flow]: the box, its cells, the canopy's place in it and how the cloth resists.
 void describe_space(Fields& fields, FlowKeys& flow) {
   fields
-      .vector("box_m", flow.box_m, above(0).up_to(1000),
-              "Flow domain: width, height, length along the flow ([NFM] section 5).")
+      .vector(
+          "box_m", flow.box_m, above(0).up_to(1000),
+          "Flow domain: width, height, length along the flow ([NFM] section 5). With bodies or a cluster, "
+          "domain, cells and fine core are larger by default; ripstop check prints them.")
       .absent(by_model(in_diameters(sheet_box),
                        fmt::format("`[{:g}, {:g}, {:g}]`", paper_box.x, paper_box.y, paper_box.z)));
   fields.integers("cells", flow.cells, from(4).up_to(2000), "Number of cells along each side of the domain.")
@@ -135,7 +137,9 @@ void describe(Fields& fields, CoreKeys& core) {
       .absent(by_model(in_diameters(sheet_core) + ", 0 where a side of the domain is less than twice that",
                        "`[0, 0, 0]`"));
   fields.number("start_m", core.start_m, from(0).up_to(1000), "Distance from the inlet to the fine core.")
-      .absent("such that a quarter of its length is upstream of the canopy");
+      .absent(
+          "such that a quarter of its length is upstream of the canopy; with bodies half a width upstream of "
+          "the foremost one");
   fields
       .number("growth", core.growth, above(1).up_to(2),
               "Largest ratio of a cell's width to that of its inner neighbour.")

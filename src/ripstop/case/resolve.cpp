@@ -225,7 +225,9 @@ void resolve_core(Follow& follow, double d, const Room& room, const ClusterRoom&
     core = {};
     from = sheet ? "a side of the domain is less than twice as long as the core of this canopy" : model;
   }
-  const double quarter = 0.25 * ((keys.core.size_m ? keys.core.size_m->z : core.z) + cluster.core.z);
+  // Ahead of bodies the start of the core does not depend on its length.
+  const double quarter =
+      0.25 * ((keys.core.size_m && room.core == 0 ? keys.core.size_m->z : core.z) + cluster.core.z);
   if (core.z > 0 && room.core > 0) {
     core.z += room.core;
     from += fmt::format("; longer by {:.3g} m for the bodies", room.core);

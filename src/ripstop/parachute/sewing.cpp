@@ -6,6 +6,14 @@
 #include <cmath>
 
 namespace ripstop::inline parachute {
+namespace {
+
+/// At least one of at least `segment` [m], but for rounding: 0.6 m has 12 of 0.05 m.
+int whole_segments(double length, double segment) {
+  return std::max(1, static_cast<int>(length / segment * (1 + 1e-9)));
+}
+
+}  // namespace
 
 void CanopyBuilder::set_skirt(int patch) {
   rigging.skirt_nodes = row(patch, 0).nodes;
@@ -40,7 +48,7 @@ Path CanopyBuilder::sew(const Path& path, double length, double segment, bool st
   while (end + 1 < s.size() && s[end + 1] <= length * (1 + 1e-9)) ++end;
   if (end == 0) return {{path.nodes[0]}, {}};
   std::vector<std::size_t> chosen;
-  for (int segments = std::max(1, static_cast<int>(s[end] / segment)); segments >= 1; --segments) {
+  for (int segments = whole_segments(s[end], segment); segments >= 1; --segments) {
     chosen.assign(1, 0);
     double shortest = s[end];
     for (int k = 1; k <= segments; ++k) {
@@ -86,7 +94,7 @@ void CanopyBuilder::add_riser(const Design& design, const Line& riser) {
     mesh.fixed = {rigging.confluence};
     return;
   }
-  const int segments = std::max(1, static_cast<int>(design.riser.length_m / design.mesh.line_segment_m));
+  const int segments = whole_segments(design.riser.length_m, design.mesh.line_segment_m);
   const Vec3 confluence = mesh.start[rigging.confluence];
   Path path;
   for (int i = 0; i < segments; ++i) {
@@ -101,7 +109,7 @@ void CanopyBuilder::add_riser(const Design& design, const Line& riser) {
 
 void CanopyBuilder::add_line(LineRun line, const std::string& name, double length, const Path& onto,
                              const Design& design, const Line& material, ChainLaws laws) {
-  line.free_springs = std::max(1, static_cast<int>(length / design.mesh.line_segment_m));
+  line.free_springs = whole_segments(length, design.mesh.line_segment_m);
   const Vec3 confluence = mesh.start[rigging.confluence], end = mesh.start[onto.nodes.front()];
   Path path{{rigging.confluence}, {}};
   for (int i = 1; i < line.free_springs; ++i) {

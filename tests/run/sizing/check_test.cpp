@@ -8,6 +8,7 @@
 #include "ripstop/case/case.h"
 #include "ripstop/case/resolve.h"
 #include "ripstop/run/opening/load.h"
+#include "tests/refusal.h"
 
 namespace ripstop {
 namespace {
@@ -16,6 +17,14 @@ bool warns_of_opening(const CheckResult& result) {
   return std::any_of(result.warnings.begin(), result.warnings.end(), [](const std::string& text) {
     return text.starts_with("in an opening at ") && text.find("margin of safety") != std::string::npos;
   });
+}
+
+TEST(Check, RefusesARiserThatPassesThroughABody) {
+  Case given = read_case(std::filesystem::path(RIPSTOP_SOURCE_DIR) / "examples/wake/case.toml");
+  EXPECT_NO_THROW(run_check(resolve(given)));
+  given.bodies.at("rocket").trailing_distance_m = 1;
+  const std::string message = refusal_of([&] { run_check(resolve(given)); }, ExitCode::usage);
+  EXPECT_NE(message.find("pass through the body \"rocket\""), std::string::npos) << message;
 }
 
 TEST(CheckMargins, OfMembersThatTheOpeningBreaksAreWarnings) {

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "ripstop/case/assemble.h"
 #include "ripstop/case/tape.h"
 #include "ripstop/core/error.h"
 #include "ripstop/core/words.h"
+#include "ripstop/fsi/lines_apart.h"
 #include "ripstop/run/json.h"
 #include "ripstop/run/margins.h"
 #include "ripstop/run/opening/load.h"
@@ -51,6 +53,10 @@ std::string heavy_payload_caution(const Settings& resolved, double speed) {
 }  // namespace
 
 CheckResult run_check(const Settings& resolved) {
+  if (!resolved.written().bodies.empty()) {
+    const CanopyMesh mesh = parachute_mesh(resolved);
+    require_lines_apart(mesh, mesh.start, flow_problem(resolved).bodies);
+  }
   std::vector<std::string> warnings = resolved.deprecations();
   for (const std::string& text : case_warnings(resolved)) warnings.push_back(text);
   const UsualOpening opening = usual_opening(resolved.written());
