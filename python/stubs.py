@@ -22,6 +22,7 @@ def typed(text):
     text = text.replace("ripstop.", "")
     text = re.sub(r"\b(List|Dict|Tuple)\[", lambda m: m[1].lower() + "[", text)
     text = text.replace("os.PathLike", "Union[str, os.PathLike[str]]")
+    text = text.replace(": function", ": Callable")  # as pybind11 2.13 and later have it
     return re.sub(r"\bobject\b", "Any", text)
 
 
