@@ -63,7 +63,7 @@ def main():
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="of every run of both builds")
     parser.add_argument("runs", nargs="*", metavar="RUN", help=", ".join(RUNS) + "; default: all")
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()
     if not set(options.runs) <= set(RUNS):
         parser.error(f"RUN is one of {', '.join(RUNS)}")
     trees = [options.old.resolve(), options.new.resolve()]

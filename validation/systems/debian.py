@@ -94,7 +94,7 @@ def processor():
 def write_row(system, row):
     """Adds or replaces the row of one system."""
     rows = TABLE.read_text().splitlines()[len(HEAD.splitlines()):] if TABLE.exists() else []
-    rows = sorted([old for old in rows if not old.startswith(f"| {system} |")] + [row])
+    rows = sorted([old for old in rows if old.startswith("| ") and not old.startswith(f"| {system} |")] + [row])
     TABLE.write_text(HEAD + "\n".join(rows) + "\n")
 
 
