@@ -1,8 +1,6 @@
 // How much cloth a mesh has.
 #pragma once
 
-#include <numeric>
-
 #include "ripstop/mesh/mesh.h"
 
 namespace ripstop {
