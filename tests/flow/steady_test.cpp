@@ -118,13 +118,21 @@ TEST(SolveToRest, NearItsReferenceADragThatHasSettledIsNotEnough) {
   EXPECT_EQ(solve_to_rest(away, stopping).last.iteration, 25);
 }
 
-TEST(SolveToRest, AConstantDragIsNotEnoughWhileTheWakeGrows) {
+TEST(SolveToRest, TheResidualIsNotEnoughWhileTheWakeGrows) {
   Scripted flow;
+  flow.residual = [](int) { return 1e-9; };
   flow.deficit = [](int n) { return 100 * (1 - std::exp(-n / 50.0)); };  // 4 % are left after 161 iterations
-  EXPECT_EQ(solve_to_rest(flow, {.settled_drag = 5e-3, .momentum_gap = 0.04}).last.iteration, 175);
+  EXPECT_EQ(solve_to_rest(flow, {.momentum_gap = 0.04}).last.iteration, 176);
   Scripted unknown;
+  unknown.residual = flow.residual;
   unknown.deficit = [](int) { return std::nan(""); };
-  EXPECT_EQ(solve_to_rest(unknown, {.settled_drag = 5e-3, .momentum_gap = 0.04}).last.iteration, 25);
+  EXPECT_EQ(solve_to_rest(unknown, {.momentum_gap = 0.04}).last.iteration, 1);
+}
+
+TEST(SolveToRest, ADragThatHasSettledIsEnoughWhileTheWakeGrows) {
+  Scripted flow;
+  flow.deficit = [](int n) { return 100 * (1 - std::exp(-n / 50.0)); };
+  EXPECT_EQ(solve_to_rest(flow, {.settled_drag = 5e-3, .momentum_gap = 0.04}).last.iteration, 25);
 }
 
 TEST(SolveToRest, ADragThatSwingsIsAveragedOverTheLastIterations) {

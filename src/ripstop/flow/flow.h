@@ -152,8 +152,8 @@ struct Stopping {
   double reference_drag = 0, near = 0;
   /// The residual is not enough before drag_left() is below this share; 0: it is.
   double most_drag_left = 0;
-  /// Neither residual nor drag is enough before the momentum deficit of the box agrees with the drag within this share:
-  /// until then the wake still grows or shrinks, and the drag may only turn. 0: they are.
+  /// Nor before the momentum deficit of the box agrees with the drag within this share: until then the wake still
+  /// grows or shrinks, and the drag may only turn. 0: it is.
   double momentum_gap = 0;
 };
 

@@ -78,7 +78,7 @@ class Run {
   bool settled_early() const {
     const bool near =
         std::abs(now_.last.drag - stopping_.reference_drag) < stopping_.near * std::abs(now_.last.drag);
-    return !near && has_settled(drag_, stopping_.settled_drag) && wake_has_settled();
+    return !near && has_settled(drag_, stopping_.settled_drag);
   }
 
   bool wake_has_settled() const {

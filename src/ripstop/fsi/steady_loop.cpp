@@ -134,7 +134,7 @@ FlowField SteadySolver::iterate(SteadyState& state, const SteadyReport& report) 
   require_apart(canopy.triangles, problem_.flow.bodies);
   const bool in_full = convergence_.asks_for_full_flow(state, now);
   flow_->place(0, canopy.triangles);
-  FlowField field = advance_flow(state, shape, in_full, report);
+  FlowField field = advance_flow(state, shape, now, in_full, report);
   enter_flow(now, state, field, problem_.mesh, shape);
   state.body_forces.clear(), state.body_moments.clear();
   for (std::size_t n = 1; n < field.bodies.size(); ++n) {
@@ -200,22 +200,21 @@ void SteadySolver::enter_first_estimate(SteadyState& state, const std::vector<Ve
                           canopy_size(problem_.mesh, shape).projected_diameter};
 }
 
-FlowField SteadySolver::advance_flow(SteadyState& state, const std::vector<Vec3>& shape, bool in_full,
-                                     const SteadyReport& report) {
-  const int iteration = static_cast<int>(state.iterations.size()) + 1;
+FlowField SteadySolver::advance_flow(SteadyState& state, const std::vector<Vec3>& shape,
+                                     const SteadyIteration& now, bool in_full, const SteadyReport& report) {
   if (state.in_time) {
-    return averaged_flow(*flow_, problem_.flow, *problem_.averaging_window, in_full, state, record_,
-                         [&](const WatchProgress& progress) {
-                           if (report)
-                             report({.stage = SteadyStage::time, .iteration = iteration, .time = progress});
-                           return true;
-                         });
+    return averaged_flow(
+        *flow_, problem_.flow, *problem_.averaging_window, in_full, state, record_,
+        [&](const WatchProgress& progress) {
+          if (report) report({.stage = SteadyStage::time, .iteration = now.iteration, .time = progress});
+          return true;
+        });
   }
-  return solve_to_rest(*flow_, convergence_.stopping(problem_.flow, state, in_full),
+  return solve_to_rest(*flow_, convergence_.stopping(problem_.flow, state, now, in_full),
                        [&](const FlowProgress& progress) {
                          enter_first_estimate(state, shape, progress);
                          if (report)
-                           report({.stage = SteadyStage::flow, .iteration = iteration, .flow = progress});
+                           report({.stage = SteadyStage::flow, .iteration = now.iteration, .flow = progress});
                          return true;
                        });
 }

@@ -87,8 +87,8 @@ class SteadySolver {
   Equilibrium solve_cloth(const SteadyState& state, const Loads& loads, SteadyIteration& now,
                           const SteadyReport& report);
   /// `shape`: of the cloth in this flow.
-  FlowField advance_flow(SteadyState& state, const std::vector<Vec3>& shape, bool in_full,
-                         const SteadyReport& report);
+  FlowField advance_flow(SteadyState& state, const std::vector<Vec3>& shape, const SteadyIteration& now,
+                         bool in_full, const SteadyReport& report);
   void enter_first_estimate(SteadyState& state, const std::vector<Vec3>& shape,
                             const FlowProgress& progress) const;
   double printed_tolerance(double flow_residual) const;

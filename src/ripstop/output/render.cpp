@@ -10,6 +10,7 @@ namespace ripstop::inline output {
 namespace {
 
 constexpr Colour rim_colour{0.93, 0.94, 0.95};
+constexpr double line_rim_width = 1.4;  // both sides together [pixel]
 
 Vec3 unit(Vec3 a) {
   const double length = norm(a);
@@ -134,6 +135,19 @@ void outline(Buffer& buffer, double step, int reach) {
   }
 }
 
+/// The numbers of the parts that may be seen in each group of `rows` rows, in their order. `extents` are the lowest and
+/// highest y of every part.
+std::vector<std::vector<std::size_t>> grouped(const std::vector<std::pair<double, double>>& extents, int rows,
+                                              int all_rows) {
+  std::vector<std::vector<std::size_t>> groups(static_cast<std::size_t>((all_rows + rows - 1) / rows));
+  for (std::size_t i = 0; i < extents.size(); ++i) {
+    const auto [first, end] = pixel_range(extents[i].first, extents[i].second, 0, all_rows);
+    for (int group = first / rows; group * rows < end; ++group)
+      groups[static_cast<std::size_t>(group)].push_back(i);
+  }
+  return groups;
+}
+
 /// Adds rows of the picture: means of samples x samples rays a pixel, premultiplied by the share that hit something.
 void add_averaged(Raster& raster, const Buffer& buffer, int begin, int end, int samples) {
   for (int y = begin; y < end; ++y) {
@@ -225,21 +239,40 @@ Raster render(const Scene& scene, const Camera& camera, int width, int height, i
   Buffer buffer(width * samples, rows * samples + 2 * reach);
   Raster raster{width, height, {}};
   raster.argb.reserve(static_cast<std::size_t>(width) * height);
+  // Each group of rows has `reach` more about it.
+  std::vector<std::pair<double, double>> quad_extents, line_extents;
+  for (const Scene::Quad& quad : scene.quads) {
+    const auto [a, b, c, d] = quad.corner;
+    const auto [low, high] =
+        std::minmax({vertices[a].at.y, vertices[b].at.y, vertices[c].at.y, vertices[d].at.y});
+    quad_extents.emplace_back(low - reach, high + reach);
+  }
+  for (const SceneLine& line : scene.lines) {
+    const double margin = reach + 0.5 * (line.width + line_rim_width) * samples;
+    const auto [low, high] = std::minmax(vertices[line.a].at.y, vertices[line.b].at.y);
+    line_extents.emplace_back(low - margin, high + margin);
+  }
+  const auto quads = grouped(quad_extents, rows * samples, all_rows);
+  const auto lines = grouped(line_extents, rows * samples, all_rows);
   for (int begin = 0; begin < height; begin += rows) {
     const int end = std::min(begin + rows, height);
+    const auto group = static_cast<std::size_t>(begin / rows);
     buffer.begin(std::max(begin * samples - reach, 0), std::min(end * samples + reach, all_rows));
-    for (const Scene::Quad& quad : scene.quads) {
+    for (const std::size_t number : quads[group]) {
+      const Scene::Quad& quad = scene.quads[number];
       const auto [a, b, c, d] = quad.corner;
       fill(buffer, camera, vertices[a], vertices[b], vertices[c], quad.colour);
       fill(buffer, camera, vertices[a], vertices[c], vertices[d], quad.colour);
     }
     outline(buffer, 0.012 * camera.height, reach);
     // Lines sewn on the cloth show on both of its sides, with a light rim that parts them from dark cloth.
-    for (const SceneLine& line : scene.lines) {
-      draw_segment(buffer, vertices[line.a].at, vertices[line.b].at, (line.width + 1.4) * samples, nearer,
-                   rim_colour, Hit::line_rim);
+    for (const std::size_t number : lines[group]) {
+      const SceneLine& line = scene.lines[number];
+      draw_segment(buffer, vertices[line.a].at, vertices[line.b].at, (line.width + line_rim_width) * samples,
+                   nearer, rim_colour, Hit::line_rim);
     }
-    for (const SceneLine& line : scene.lines) {
+    for (const std::size_t number : lines[group]) {
+      const SceneLine& line = scene.lines[number];
       draw_segment(buffer, vertices[line.a].at, vertices[line.b].at, line.width * samples, nearer,
                    line.colour, Hit::line);
     }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -30,6 +31,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// canopy.png while a run continues: it takes half a second.
+constexpr std::chrono::seconds between_pictures{10};
+
 /// Writes every file of the run before it calls the next observer.
 class SteadyFolder : public SteadyObserver {
  public:
@@ -52,7 +56,7 @@ class SteadyFolder : public SteadyObserver {
   void write_series(std::size_t iterations) const;
   void write_shape(const SteadyRun& run, const SteadyState& state) const;
   void write_flow(const FlowField& field) const;
-  void write_state(const SteadyRun& run, const SteadyState& state) const;
+  void draw(const SteadyRun& run, const SteadyState& state);
   void write_drag_plot(const SteadyState& state, const std::string& title) const;
   void write_pressure(const SteadyRun& run, const SteadyState& state, const SteadyResult& result) const;
   CsvLog iterations(std::size_t kept) const {
@@ -62,6 +66,8 @@ class SteadyFolder : public SteadyObserver {
   RunFolder& folder_;
   bool fields_;
   fs::path warm_from_;
+  std::size_t drawn_ = 0;  // the iteration of canopy.png; 0: not drawn yet
+  std::chrono::steady_clock::time_point drawn_at_;
   SteadyObserver& next_;
 };
 
@@ -89,7 +95,9 @@ void SteadyFolder::iterated(const SteadyRun& run, const SteadyState& state, cons
   if (fields_) {
     write_shape(run, state);
     write_flow(flow);
-    write_state(run, state);
+    const auto now = std::chrono::steady_clock::now();
+    const bool drawn_lately = drawn_ > 0 && now - drawn_at_ < between_pictures;
+    if (!drawn_lately) draw(run, state), drawn_at_ = now;
   }
   if (state.iterations.back().in_time) write_watch(folder_, run.resolved, run.solver.record());
   iterations(state.iterations.size() - 1).add(row_of(state.iterations.back()));
@@ -99,10 +107,8 @@ void SteadyFolder::iterated(const SteadyRun& run, const SteadyState& state, cons
 }
 
 void SteadyFolder::ended(const SteadyRun& run, const SteadyState& state, const SteadyResult& result) {
-  if (!fields_) {
-    write_shape(run, state);
-    write_state(run, state);
-  }
+  if (!fields_) write_shape(run, state);
+  if (drawn_ < state.iterations.size()) draw(run, state);
   write_stl(folder_.own("canopy.stl"), surface_of(run.solver.cells(), state.shape));
   for (std::size_t n = 1; n < run.solver.bodies().size(); ++n) {
     const FlowBody& body = run.solver.bodies()[n];
@@ -151,6 +157,10 @@ void SteadyFolder::write_shape(const SteadyRun& run, const SteadyState& state) c
   lines.cell_arrays.push_back(vtk_array("tension_n", tensions));
   folder_.write(fmt::format("vtk/lines_{:03}.vtp", k), lines);
   write_series(k);
+  CsvTable table{{"line", "free_tension_n", "largest_tension_n"}, {}};
+  for (const LineTension& t : line_tensions(mesh, tensions))
+    table.rows.push_back({double(table.rows.size() + 1), t.free_tension, t.largest_tension});
+  folder_.write("lines.csv", table);
 }
 
 void SteadyFolder::write_flow(const FlowField& field) const {
@@ -158,24 +168,18 @@ void SteadyFolder::write_flow(const FlowField& field) const {
   write_image(folder_.path() / "flow", flow_image(field));
 }
 
-void SteadyFolder::write_state(const SteadyRun& run, const SteadyState& state) const {
+void SteadyFolder::draw(const SteadyRun& run, const SteadyState& state) {
   const SteadySolver& solver = run.solver;
-  const CanopyMesh& mesh = solver.mesh();
   const ClothState cloth = solver.cloth_state(state);
   std::vector<double> mises;
   for (const CellStress& s : cell_stress(solver.cloth(), cloth)) mises.push_back(s.von_mises);
-  const std::vector<double> tensions = spring_tensions(solver.cloth(), cloth);
-  write_canopy_picture(folder_.own("canopy.png"), mesh, state.shape,
-                       {fmt::format("{}, coupling iteration {}: drag {:.1f} N", run.resolved.title(),
-                                    state.iterations.size(), state.iterations.back().fluid_force),
+  drawn_ = state.iterations.size();
+  write_canopy_picture(folder_.own("canopy.png"), solver.mesh(), state.shape,
+                       {fmt::format("{}, coupling iteration {}: drag {:.1f} N", run.resolved.title(), drawn_,
+                                    state.iterations.back().fluid_force),
                         "von Mises stress [N/m]",
                         mises,
                         {}});
-  CsvTable table{{"line", "free_tension_n", "largest_tension_n"}, {}};
-  for (const LineTension& t : line_tensions(mesh, tensions)) {
-    table.rows.push_back({double(table.rows.size() + 1), t.free_tension, t.largest_tension});
-  }
-  folder_.write("lines.csv", table);
 }
 
 // pressure.csv and pressure.png: coefficients along the gores; load.png: the load over the cloth.
