@@ -123,8 +123,8 @@ bool SteadyConvergence::asks_for_full_flow(const SteadyState& state, const Stead
 // then the wake develops from one shape to the next. If the drag settles away from the load on the cloth, the force
 // balance cannot close in this iteration, and the flow is not solved in full. A flow that is not averaged where it does
 // not converge has to meet its residual only.
-Stopping SteadyConvergence::stopping(const FlowProblem& problem, const SteadyState& state,
-                                     const SteadyIteration& now, bool in_full) const {
+Stopping SteadyConvergence::stopping(const FlowProblem& problem, const SteadyIteration& now,
+                                     bool in_full) const {
   Stopping stopping = problem.stopping;
   const bool of_flow = settings_.load == CanopyLoad::of_flow && stopping.average_over > 0;
   const double settled = of_flow ? settled_drag_of_flow : settled_drag;
@@ -133,7 +133,7 @@ Stopping SteadyConvergence::stopping(const FlowProblem& problem, const SteadySta
   stopping.momentum_gap = settled_wake;
   stopping.most_drag_left = most_drag_left;
   // The drag of an iteration of the flow is that of all bodies.
-  if (problem.bodies.size() == 1 && !state.iterations.empty()) {
+  if (problem.bodies.size() == 1) {
     stopping.settled_drag = settled;
     stopping.reference_drag = now.nodal_load;
     stopping.near = ledger_tolerance + (window_ ? window_->standard_error : 0);

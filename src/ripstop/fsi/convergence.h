@@ -39,8 +39,7 @@ class SteadyConvergence {
 
   /// When the flow about the surface of `now` has been advanced enough. Until `in_full` its drag has to settle only: a
   /// flow need not be solved to its last digit while the shape still moves.
-  Stopping stopping(const FlowProblem& problem, const SteadyState& state, const SteadyIteration& now,
-                    bool in_full) const;
+  Stopping stopping(const FlowProblem& problem, const SteadyIteration& now, bool in_full) const;
 
   /// Shape and drag have settled, and the ledger closes. `in_full`: the flow of `now` was solved in full.
   bool reached(const SteadyState& state, const SteadyIteration& now, bool in_full) const;

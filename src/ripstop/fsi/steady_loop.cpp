@@ -210,7 +210,7 @@ FlowField SteadySolver::advance_flow(SteadyState& state, const std::vector<Vec3>
           return true;
         });
   }
-  return solve_to_rest(*flow_, convergence_.stopping(problem_.flow, state, now, in_full),
+  return solve_to_rest(*flow_, convergence_.stopping(problem_.flow, now, in_full),
                        [&](const FlowProgress& progress) {
                          enter_first_estimate(state, shape, progress);
                          if (report)

@@ -28,6 +28,11 @@ struct Ending : SteadyObserver {
   std::vector<CellStress> stress;
   std::vector<PressureRing> rings;
   std::vector<VtkArray> arrays;
+  fs::path picture;  // if given
+  std::string first_picture;
+  void iterated(const SteadyRun&, const SteadyState&, const FlowField&) override {
+    if (!picture.empty() && first_picture.empty()) first_picture = read_file(picture);
+  }
   void ended(const SteadyRun& run, const SteadyState& end, const SteadyResult&) override {
     state = end;
     const ClothState cloth = run.solver.cloth_state(end);
@@ -54,6 +59,7 @@ TEST(SteadyFiles, HaveTheNumbersOfTheStateThatTheRunEndedIn) {
   const TemporaryFolder folder("steady-files");
   const Case given = square_law_case({{"coupling.load", "uniform"}});
   Ending ending;
+  ending.picture = folder.path / "canopy.png";
   const SteadyFolderSettings settings{{.folder = folder.path, .fields = true}, 1, {}, {}};
   const SteadyResult result = run_steady_in(settings, resolve(given), ending).result;
   const CanopyMesh mesh = parachute_mesh(resolve(given));
@@ -141,6 +147,7 @@ TEST(SteadyFiles, HaveTheNumbersOfTheStateThatTheRunEndedIn) {
   }
   for (const char* picture : {"canopy.png", "load.png"})
     EXPECT_GT(read_png(folder.path / picture).width, 0) << picture;
+  EXPECT_NE(read_file(ending.picture), ending.first_picture);  // its title names the iteration
   EXPECT_EQ(fs::file_size(folder.path / "canopy.stl"),
             84 + 50 * surface_of(cells_of(mesh), ending.state.shape).size());  // binary STL
 }

@@ -95,9 +95,7 @@ void SteadyFolder::iterated(const SteadyRun& run, const SteadyState& state, cons
   if (fields_) {
     write_shape(run, state);
     write_flow(flow);
-    const auto now = std::chrono::steady_clock::now();
-    const bool drawn_lately = drawn_ > 0 && now - drawn_at_ < between_pictures;
-    if (!drawn_lately) draw(run, state), drawn_at_ = now;
+    if (drawn_ == 0 || std::chrono::steady_clock::now() - drawn_at_ >= between_pictures) draw(run, state);
   }
   if (state.iterations.back().in_time) write_watch(folder_, run.resolved, run.solver.record());
   iterations(state.iterations.size() - 1).add(row_of(state.iterations.back()));
@@ -174,6 +172,7 @@ void SteadyFolder::draw(const SteadyRun& run, const SteadyState& state) {
   std::vector<double> mises;
   for (const CellStress& s : cell_stress(solver.cloth(), cloth)) mises.push_back(s.von_mises);
   drawn_ = state.iterations.size();
+  drawn_at_ = std::chrono::steady_clock::now();
   write_canopy_picture(folder_.own("canopy.png"), solver.mesh(), state.shape,
                        {fmt::format("{}, coupling iteration {}: drag {:.1f} N", run.resolved.title(), drawn_,
                                     state.iterations.back().fluid_force),
