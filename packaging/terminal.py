@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Manual pages and shell completion (bash, zsh, fish) of the program, from its own `--help`.
 
-    packaging/terminal.py --program build/bin/ripstop --version 1.0.0 --out build/terminal
+    packaging/terminal.py --program build/bin/ripstop --version 1.2.3 --out build/terminal
 """
 import argparse
 import gzip

@@ -233,6 +233,15 @@ TEST(Sealed, EveryTruncationAndEveryChangedByteIsNoticed) {
   EXPECT_EQ(read_sealed(path), "");
 }
 
+TEST(Sealed, PiecesMakeTheFileOfTheWhole) {
+  const TemporaryFolder folder("sealed-pieces");
+  const std::vector<std::string_view> pieces{"x = ", "", "1.5\n", {}};
+  write_sealed(folder.path / "pieces", pieces);
+  write_sealed(folder.path / "whole", "x = 1.5\n");
+  EXPECT_EQ(read_file(folder.path / "pieces"), read_file(folder.path / "whole"));
+  EXPECT_EQ(read_sealed(folder.path / "pieces"), "x = 1.5\n");
+}
+
 TEST(SealedFolder, NamesTheFileThatIsMissingNewOrChanged) {
   const TemporaryFolder folder("sealed-folder");
   make_folder(folder.path / "sub");

@@ -156,7 +156,11 @@ void Contact::sort_into_cells() {
   }
   std::partial_sum(cells_.begin.begin(), cells_.begin.end(), cells_.begin.begin());
   std::vector<int> next(cells_.begin.begin(), cells_.begin.end() - 1);
-  for (std::size_t i = 0; i < x_.size(); ++i) cells_.nodes[next[cells_.of[i]]++] = static_cast<int>(i);
+  cells_.x.resize(x_.size());
+  for (std::size_t i = 0; i < x_.size(); ++i) {
+    const int k = next[cells_.of[i]]++;
+    cells_.nodes[k] = static_cast<int>(i), cells_.x[k] = x_[i];
+  }
 }
 
 void Contact::list_pairs(int rank) {
@@ -176,9 +180,10 @@ void Contact::list_pairs(int rank) {
         const int row = (z * ny + y) * nx;
         const int end = cells_.begin[row + std::min(nx - 1, cx + 1) + 1];
         for (int k = cells_.begin[row + std::max(0, cx - 1)]; k < end; ++k) {
+          const Vec3 d = cells_.x[k] - x_[i];
+          if (!(dot(d, d) < cells_.width * cells_.width)) continue;
           const int j = cells_.nodes[k];
-          const Vec3 d = x_[j] - x_[i];
-          if (j == i || !(dot(d, d) < cells_.width * cells_.width)) continue;
+          if (j == i) continue;
           const double spacing = 0.5 * (layout_.spacing[i] + layout_.spacing[j]);
           const Vec3 on_cloth = layout_.as_cut[j] - layout_.as_cut[i];
           if (layout_.piece[i] == layout_.piece[j] &&
@@ -208,6 +213,7 @@ void Contact::add_forces(int rank, double interval) {
     for (int p = worker.first[i - mine.begin]; p < worker.first[i - mine.begin + 1]; ++p) {
       const Pair& pair = worker.pairs[p];
       const Vec3 d = x_[i] - x_[pair.other];
+      if (!(dot(d, d) < clearly_more * pair.wanted * pair.wanted)) continue;  // needs no root
       const double r = norm(d);
       if (!(r < pair.wanted) || r == 0) continue;
       const Vec3 normal = d / r;

@@ -70,6 +70,7 @@ class Contact {
     double width = 0;
     std::array<int, 3> size{};
     std::vector<int> begin, nodes, of;
+    std::vector<Vec3> x;  // of `nodes` [m]
   };
   void gather(int rank, const ClothState& state);
   void sort_into_cells();

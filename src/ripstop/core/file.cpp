@@ -122,13 +122,19 @@ std::string written_as(const std::string& file) {
 }
 
 void write_file(const std::filesystem::path& path, std::string_view bytes) {
+  write_file(path, std::span(&bytes, 1));
+}
+
+void write_file(const std::filesystem::path& path, std::span<const std::string_view> pieces) {
   refuse_path_of_windows(path);
   drop_leftovers(path);
   std::filesystem::path temporary;
   const int opened = open_temporary(path, temporary);
   if (opened < 0) fail("write", path, errno);
   Descriptor fd(opened);
-  int reason = write_all(fd.get(), bytes);
+  int reason = 0;
+  for (const std::string_view piece : pieces)
+    if (reason == 0) reason = write_all(fd.get(), piece);
   if (reason == 0 && ::fsync(fd.get()) != 0) reason = errno;
   if (!fd.close() && reason == 0) reason = errno;
   if (reason == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) reason = errno;
@@ -150,7 +156,8 @@ std::string read_file(const std::filesystem::path& path) {
         ExitCode::io,
         fmt::format("cannot read {}: it is a pipe or a device, not a file; write its content into a file",
                     path.string()));
-  std::string bytes(static_cast<size_t>(status.st_size), '\0');
+  std::string bytes(static_cast<size_t>(status.st_size) + 1,
+                    '\0');  // one more, so that it need not grow to see the end
   size_t done = 0;
   for (;;) {  // the size is a hint only: a file can grow, and /proc gives 0
     if (done == bytes.size()) bytes.resize(bytes.size() + 4096);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -12,6 +13,8 @@ namespace ripstop {
 /// `path` of killed processes are removed. Throws Error(io) with the path and the system's reason; the old file is
 /// then untouched.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
+/// The same for the bytes of these pieces, one after the other.
+void write_file(const std::filesystem::path& path, std::span<const std::string_view> pieces);
 
 /// NAME for ".NAME.PID-N.tmp", the form of the temporary files of write_file(); else nothing.
 std::string written_as(const std::string& file);

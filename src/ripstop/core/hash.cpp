@@ -4,7 +4,10 @@
 #include <xxhash.h>
 
 #include <map>
+#include <memory>
+#include <new>
 #include <sstream>
+#include <vector>
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
@@ -14,8 +17,21 @@ namespace {
 
 constexpr const char* damage_advice = "; it is damaged or incomplete: delete it and use an older one";
 
-std::string seal_line(std::string_view bytes) {
-  return fmt::format("ripstop sealed file 1, {} bytes, xxh3-128 {}\n", bytes.size(), hash_bytes(bytes));
+std::string digits(XXH128_hash_t hash) {
+  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+std::string seal_line(std::span<const std::string_view> pieces) {
+  const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), XXH3_freeState);
+  if (!state) throw std::bad_alloc();
+  XXH3_128bits_reset(state.get());
+  std::size_t size = 0;
+  for (const std::string_view piece : pieces) {
+    XXH3_128bits_update(state.get(), piece.data(), piece.size());
+    size += piece.size();
+  }
+  return fmt::format("ripstop sealed file 1, {} bytes, xxh3-128 {}\n", size,
+                     digits(XXH3_128bits_digest(state.get())));
 }
 
 /// Relative name -> hash, of every file below `folder` but the seal.
@@ -66,8 +82,7 @@ std::string first_difference(const std::string& text, const std::string& other) 
 }  // namespace
 
 std::string hash_bytes(std::string_view bytes) {
-  const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
-  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+  return digits(XXH3_128bits(bytes.data(), bytes.size()));
 }
 
 std::string hash_file(const std::filesystem::path& path) {
@@ -79,9 +94,14 @@ std::string hash_folder(const std::filesystem::path& folder) {
 }
 
 void write_sealed(const std::filesystem::path& path, std::string_view bytes) {
-  std::string text = seal_line(bytes);
-  text += bytes;
-  write_file(path, text);
+  write_sealed(path, std::span(&bytes, 1));
+}
+
+void write_sealed(const std::filesystem::path& path, std::span<const std::string_view> pieces) {
+  const std::string seal = seal_line(pieces);
+  std::vector<std::string_view> all{seal};
+  all.insert(all.end(), pieces.begin(), pieces.end());
+  write_file(path, all);
 }
 
 std::string read_sealed(const std::filesystem::path& path) {
@@ -89,7 +109,7 @@ std::string read_sealed(const std::filesystem::path& path) {
   const size_t end = text.find('\n');
   if (end != std::string::npos) {
     const std::string_view bytes = std::string_view(text).substr(end + 1);
-    if (text.compare(0, end + 1, seal_line(bytes)) == 0) return text.substr(end + 1);
+    if (text.compare(0, end + 1, seal_line(std::span(&bytes, 1))) == 0) return text.erase(0, end + 1);
   }
   throw Error(ExitCode::bad_data, fmt::format("{} does not match its seal{}", path.string(), damage_advice));
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -18,6 +19,8 @@ std::string hash_folder(const std::filesystem::path& folder);
 
 /// `bytes` under a first line with their size and hash, written in one step. Throws Error(io).
 void write_sealed(const std::filesystem::path& path, std::string_view bytes);
+/// The same for the bytes of these pieces, one after the other, without a copy of them.
+void write_sealed(const std::filesystem::path& path, std::span<const std::string_view> pieces);
 /// The bytes given to write_sealed(). Throws Error(bad_data) if one of them, or the
 /// seal, was lost or changed.
 std::string read_sealed(const std::filesystem::path& path);

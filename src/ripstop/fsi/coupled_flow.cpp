@@ -10,6 +10,7 @@
 #include "ripstop/core/error.h"
 #include "ripstop/flow/apart.h"
 #include "ripstop/fsi/added_mass.h"
+#include "ripstop/fsi/in_parts.h"
 #include "ripstop/fsi/lattice.h"
 #include "ripstop/fsi/sheet_transfer.h"
 #include "ripstop/fsi/transfer.h"
@@ -83,7 +84,7 @@ void shares_of_directions(Vec3 normal, const Visit& visit) {
 // Mean by area over the cloth within `width` that has the same orientation. A face of the flow represents many cells of
 // cloth and must not have the velocity of one of them: the load, which is smooth on that scale, could not stop it. The
 // operation is symmetric with respect to the areas, so it increases no velocity.
-std::vector<Vec3> smoothed_velocity(const MovingCells& cells, double width) {
+std::vector<Vec3> smoothed_velocity(const MovingCells& cells, double width, ThreadTeam* team) {
   struct Sum {
     double area = 0;  // [m2]
     Vec3 swept;       // [m3/s]
@@ -105,12 +106,12 @@ std::vector<Vec3> smoothed_velocity(const MovingCells& cells, double width) {
       sum.area += share * area, sum.swept += share * area * cells.velocity[c];
     });
   std::vector<Vec3> result = cells.velocity;
-  for (std::size_t c = 0; c < cells.centre.size(); ++c) {
+  each_in_parts(team, cells.centre.size(), [&](std::size_t c) {
     if (norm(cells.area[c]) > 0) result[c] = {};
     each(c, [&](const Sum& sum, double share, double) {
       if (share > 0) result[c] += share / sum.area * sum.swept;
     });
-  }
+  });
   return result;
 }
 
@@ -190,7 +191,7 @@ SheetMotion CoupledFlow::sheet_motion(const std::vector<Vec3>& positions, const 
     cells.centre.push_back(centre), cells.velocity.push_back(velocity);
     motion.pressure.insert(motion.pressure.end(), 2, memory.pressure.empty() ? 0 : memory.pressure[c]);
   }
-  for (const Vec3 velocity : smoothed_velocity(cells, smoothed_over * cell_width()))
+  for (const Vec3 velocity : smoothed_velocity(cells, smoothed_over * cell_width(), team_))
     motion.velocity.insert(motion.velocity.end(), 2, velocity);
   return motion;
 }

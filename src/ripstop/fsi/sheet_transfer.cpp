@@ -302,7 +302,7 @@ void press_into_folds(const Boxes& samples, const Reaches& reaches, const Patchw
 // force that the air exerts on a part of the canopy stays there.
 std::vector<Vec3> fold_tractions(const std::vector<SheetLoad>& loads, const std::vector<Sample>& samples,
                                  const Widths& widths, const Patchwork& cloth,
-                                 const std::vector<double>& pressure) {
+                                 const std::vector<double>& pressure, ThreadTeam* team) {
   struct Sum {
     Vec3 force;                            // that is left [N]
     double area = 0, all = 0, folded = 0;  // of cloth, samples and samples in folds [m2]
@@ -327,13 +327,13 @@ std::vector<Vec3> fold_tractions(const std::vector<SheetLoad>& loads, const std:
       sum.area += share * norm(cloth.area[c]);
     });
   }
-  for (std::size_t c = 0; c < result.size(); ++c) {
-    if (!(norm(cloth.area[c]) > 0)) continue;
+  each_in_parts(team, result.size(), [&](std::size_t c) {
+    if (!(norm(cloth.area[c]) > 0)) return;
     lattice.about(cloth.centre[c], [&](const Sum& sum, double share) {
       if (sum.all > 0)
         result[c] += share * sum.folded / sum.all / std::max(sum.area, 0.2 * sum.all) * sum.force;
     });
-  }
+  });
   return result;
 }
 
@@ -392,7 +392,7 @@ ClothLoad load_of_flow(const std::vector<SheetLoad>& loads, const FlowGrid& grid
   ClothLoad load{pressures(samples, reaches, cloth, box, team), {}, {}};
   if (folds == Folds::filled && !samples.empty()) {
     press_into_folds(Boxes(samples, box), reaches, cloth, load.pressure, team);
-    load.of_folds = fold_tractions(loads, samples, widths, cloth, load.pressure);
+    load.of_folds = fold_tractions(loads, samples, widths, cloth, load.pressure, team);
   }
   const Wrench air = wrench_of(loads), plain = wrench_of(load, cells, x);
   const Vec3 force = air.force - plain.force;

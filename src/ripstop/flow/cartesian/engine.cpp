@@ -3,8 +3,11 @@
 
 #include <cmath>
 #include <cstring>
+#include <deque>
+#include <string_view>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "ripstop/core/error.h"
 #include "ripstop/core/file.h"
@@ -123,19 +126,23 @@ void each_part(AnyMotion& m, Visit&& visit) {
 static_assert(sizeof(Grading) == 4 * sizeof(double) + 2 * sizeof(int) &&
               sizeof(Freestream) == 8 * sizeof(double));
 
+/// The bytes of a file in pieces. Arrays, which are large, are not copied and must exist until they are written.
 class Writer {
  public:
   template <class T>
   void operator()(const T& value) {
     if constexpr (requires { value.data(); }) {
       (*this)(value.size());
-      bytes.append(reinterpret_cast<const char*>(value.data()), value.size() * sizeof *value.data());
+      pieces.emplace_back(reinterpret_cast<const char*>(value.data()), value.size() * sizeof *value.data());
     } else {
       static_assert(std::is_trivially_copyable_v<T>);
-      bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+      pieces.push_back(copies_.emplace_back(reinterpret_cast<const char*>(&value), sizeof value));
     }
   }
-  std::string bytes;
+  std::vector<std::string_view> pieces;
+
+ private:
+  std::deque<std::string> copies_;
 };
 
 class Reader {
@@ -367,7 +374,7 @@ void CartesianFlow::save(const std::filesystem::path& folder) const {
   }
   each_carried(solver_.state(), out);
   make_folder(folder);
-  write_sealed(folder / state_file, out.bytes);
+  write_sealed(folder / state_file, out.pieces);
 }
 
 Header header_of(Reader& in) {
