@@ -173,7 +173,7 @@ TEST_F(Inputs, MissingMemoryIsReportedBeforeItIsAllocated) {
 #endif
   constexpr rlim_t gigabyte = 1 << 30;
   EXPECT_EQ(limited({"steady", stratos, "--dry-run", "--grid", "500,500,600"}, 4 * gigabyte), 8);
-  EXPECT_NE(read_file(in("errors")).find("needs about 105.2 GB of memory"), std::string::npos)
+  EXPECT_NE(read_file(in("errors")).find("needs about 75.2 GB of memory"), std::string::npos)
       << read_file(in("errors"));
   EXPECT_EQ(limited({"coupon", "f-111", "--threads", "1024"}, gigabyte), 8);
   EXPECT_NE(read_file(in("errors")).find("of 1024 threads could be started"), std::string::npos)
