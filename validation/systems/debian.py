@@ -23,6 +23,7 @@ HEAD = """# Systems on which the README's commands pass
 
 `make test-debian13` and `make test-debian12`: an empty root of the release by debootstrap, its own packages, a clean clone. Build and
 tests are `make check` (all targets, warnings are errors, all tests); the demo is `make demo` with its own build of the program.
+Two of the skipped tests do not apply to their type of canopy; the others need OpenFOAM ([reason](../guide/openfoam.md)).
 
 | system | compiler | build, s | tests | tests, s | demo, s | machine and day |
 |---|---|---|---|---|---|---|
