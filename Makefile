@@ -293,6 +293,7 @@ container: tarball  ## The image localhost/ripstop of the archive (buildah); IMA
 
 package: docs install-build  ## Debian packages in build/, examined by lintian
 	$(call install_missing,lintian)
+	@cmake build > build.configure.log || { cat build.configure.log; exit 1; }  # the site of the documentation may be newer
 	@rm -f build/*.deb && cd build && cpack -G DEB
 	@lintian --tag-display-limit 0 --fail-on error,warning build/*.deb
 

@@ -32,15 +32,16 @@ def problems(root, version):
 
 def artefacts(build, version):
     """The built files by kind. Each kind must be there, and in this version alone."""
-    kinds = {"portable archive": "portable/ripstop-*-linux-*.tar.gz", "wheel": "wheel/ripstop-*.whl", "Debian package": "*.deb"}
-    files, missing = [], []
+    kinds = {"portable archive": "portable/ripstop-*-linux-*.tar.gz", "wheel": "wheel/ripstop-*.whl", "Debian package": "*.deb",
+             "Debian package of the documentation": "ripstop-doc_*.deb"}
+    files, missing = set(), []
     for kind, pattern in kinds.items():
         found = sorted(build.glob(pattern))
         if not found:
             missing.append(f"{build}/{pattern}: there is no {kind}; run `make release`")
         missing += [f"{file.name} is not of version {version}" for file in found if not re.search(rf"[-_]{re.escape(version)}[-_]", file.name)]
-        files += found
-    return files, missing
+        files.update(found)
+    return sorted(files), missing
 
 
 def main():

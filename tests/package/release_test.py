@@ -57,6 +57,8 @@ class Release(unittest.TestCase):
         self.refused("ripstop_1.2.2_amd64.deb is not of version 1.2.3")
         (self.build / NAMES[1]).unlink()
         self.refused("there is no wheel")
+        (self.build / NAMES[3]).unlink()
+        self.refused("there is no Debian package of the documentation")
         self.assertEqual(self.release("--draft").returncode, 1)
 
     def test_a_tree_that_is_no_release_is_refused_but_for_a_draft(self):

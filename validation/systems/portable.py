@@ -25,7 +25,8 @@ HEAD = """# Archive and wheel in empty systems
     ripstop {arguments}
 
 The command was run without a network in empty root folders made by debootstrap (minbase). Those of the wheel also have
-python3, python3-venv and python3-numpy, and those of the packages have the packages on which they depend.
+python3, python3-venv and python3-numpy, and those of the packages have the packages on which they depend. A wheel for
+another Python was built on the release of that Python, so last digits and pictures differ.
 
 | file | MB | system | drag, N | iterations | pictures compared with those of the build machine |
 |---|---|---|---|---|---|
@@ -71,6 +72,7 @@ def empty_root(options, release, packages, copy="python"):
         full = root.with_name(f"debian{release}-{copy}")
         if not full.exists():
             subprocess.run(["cp", "-a", str(root), str(full)], check=True)
+        (full / "ripstop").mkdir(exist_ok=True)
         debian.run_in(full, f"apt-get update -q && apt-get install -y -q --no-install-recommends {packages}", network=True)
         root = full
     work = root / "ripstop"
