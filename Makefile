@@ -229,7 +229,7 @@ endef
 test-debian13:  ## Build, tests and demo in an empty root of Debian 13, made by debootstrap (as root), into docs/tables: an hour
 	$(call test_debian,13)
 
-wheel-debian13:  ## The wheel for Python 3.13, made in an empty root of Debian 13 (as root), into build/wheel
+wheel-debian13:  ## The wheel for Python 3.13, made in an empty root of Debian 13 (as root), into build/wheel-debian13
 	$(call test_debian,13 --wheel)
 
 test-debian12:  ## The same in an empty root of Debian 12
@@ -297,7 +297,7 @@ package: docs install-build  ## Debian packages in build/, examined by lintian
 	@rm -f build/*.deb && cd build && cpack -G DEB
 	@lintian --tag-display-limit 0 --fail-on error,warning build/*.deb
 
-release: wheel tarball package  ## All artefacts with SHA256SUMS in build/release; a tree that is no release: RELEASE=--draft
+release: wheel tarball package  ## All artefacts with SHA256SUMS in build/release, and the wheel of wheel-debian13 if it was made; a tree that is no release: RELEASE=--draft
 	@/usr/bin/python3 -B packaging/release.py --build build --out build/release $(RELEASE)
 
 clean:  ## Remove the build folders

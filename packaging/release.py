@@ -32,7 +32,7 @@ def problems(root, version):
 
 def artefacts(build, version):
     """The built files by kind. Each kind must be there, and in this version alone."""
-    kinds = {"portable archive": "portable/ripstop-*-linux-*.tar.gz", "wheel": "wheel/ripstop-*.whl", "Debian package": "*.deb",
+    kinds = {"portable archive": "portable/ripstop-*-linux-*.tar.gz", "wheel": "wheel*/ripstop-*.whl", "Debian package": "*.deb",
              "Debian package of the documentation": "ripstop-doc_*.deb"}
     files, missing = set(), []
     for kind, pattern in kinds.items():

@@ -78,11 +78,12 @@ def run_in(root, command, network=False, log=None):
     return time.monotonic() - start
 
 
-def make_wheel(root, jobs):
-    """The wheel for the Python of the root, copied to build/wheel of this repository."""
+def make_wheel(root, release, jobs):
+    """The wheel for the Python of the root, copied to build/wheel-debian13 (or 12) of this repository, where `make release` finds it."""
     run_in(root, f"make wheel JOBS={jobs}", network=True)
-    folder = ROOT / "build/wheel"
-    folder.mkdir(parents=True, exist_ok=True)
+    folder = ROOT / f"build/wheel-debian{release}"
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
     for file in (root / "ripstop/build/wheel").glob("*.whl"):
         print(shutil.copy(file, folder))
 
@@ -107,7 +108,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)))
     parser.add_argument("--ccache", action="store_true", help="compile through ccache, for repeated runs: no row in the table")
     parser.add_argument("--tests", metavar="REGEX", help="only these tests: no row in the table")
-    parser.add_argument("--wheel", action="store_true", help="only the wheel for the Python of this release, into build/wheel")
+    parser.add_argument("--wheel", action="store_true", help="only the wheel for the Python of this release, into build/wheel-debian13 (or 12)")
     options = parser.parse_args()
     if os.geteuid() != 0:
         raise SystemExit("chroot needs root: run this as root or with sudo")
@@ -119,7 +120,7 @@ def main():
 
     run_in(root, "apt-get update -q && apt-get install -y -q make git" + (" ccache" if options.ccache else ""), network=True)
     if options.wheel:
-        make_wheel(root, options.jobs)
+        make_wheel(root, options.release, options.jobs)
         return
     packages = run_in(root, "make check-deps", network=True)
     demo = 0 if options.tests else run_in(root, f"make demo JOBS={options.jobs}")
