@@ -156,8 +156,8 @@ std::string read_file(const std::filesystem::path& path) {
         ExitCode::io,
         fmt::format("cannot read {}: it is a pipe or a device, not a file; write its content into a file",
                     path.string()));
-  std::string bytes(static_cast<size_t>(status.st_size) + 1,
-                    '\0');  // one more, so that it need not grow to see the end
+  // One byte more, so that it need not grow before the end is seen.
+  std::string bytes(static_cast<size_t>(status.st_size) + 1, '\0');
   size_t done = 0;
   for (;;) {  // the size is a hint only: a file can grow, and /proc gives 0
     if (done == bytes.size()) bytes.resize(bytes.size() + 4096);

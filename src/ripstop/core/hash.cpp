@@ -17,21 +17,19 @@ namespace {
 
 constexpr const char* damage_advice = "; it is damaged or incomplete: delete it and use an older one";
 
-std::string digits(XXH128_hash_t hash) {
+std::string hash_pieces(std::span<const std::string_view> pieces) {
+  const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), XXH3_freeState);
+  if (!state) throw std::bad_alloc();
+  XXH3_128bits_reset(state.get());
+  for (const std::string_view piece : pieces) XXH3_128bits_update(state.get(), piece.data(), piece.size());
+  const XXH128_hash_t hash = XXH3_128bits_digest(state.get());
   return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 
 std::string seal_line(std::span<const std::string_view> pieces) {
-  const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), XXH3_freeState);
-  if (!state) throw std::bad_alloc();
-  XXH3_128bits_reset(state.get());
   std::size_t size = 0;
-  for (const std::string_view piece : pieces) {
-    XXH3_128bits_update(state.get(), piece.data(), piece.size());
-    size += piece.size();
-  }
-  return fmt::format("ripstop sealed file 1, {} bytes, xxh3-128 {}\n", size,
-                     digits(XXH3_128bits_digest(state.get())));
+  for (const std::string_view piece : pieces) size += piece.size();
+  return fmt::format("ripstop sealed file 1, {} bytes, xxh3-128 {}\n", size, hash_pieces(pieces));
 }
 
 /// Relative name -> hash, of every file below `folder` but the seal.
@@ -82,7 +80,7 @@ std::string first_difference(const std::string& text, const std::string& other) 
 }  // namespace
 
 std::string hash_bytes(std::string_view bytes) {
-  return digits(XXH3_128bits(bytes.data(), bytes.size()));
+  return hash_pieces(std::span(&bytes, 1));
 }
 
 std::string hash_file(const std::filesystem::path& path) {
